@@ -1,0 +1,60 @@
+// analysis_file.h — Analysis files: where they lie, how they are written, when they can be trusted.
+//
+// Bytes: magic "SCNANLZ\n" | u32 format version | u32 reserved 0 | u64 payload size | payload (protobuf
+// scene_analyzer.v1.Analysis) | u64 low, u64 high of XXH3-128 over everything before. Little endian.
+//
+// A file is written to a temporary name beside its place, synced and renamed: it is whole or absent, also after
+// SIGKILL or on a full disk. Reading never throws on bad contents: it says why the file cannot be used.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "analysis/analysis.h"
+
+namespace scene_analyzer::analysis_file {
+
+// `<asset file name with extension>.analysis` beside the asset; or, with a cache folder, below it under the
+// asset's absolute path (so two assets never share a file).
+std::filesystem::path path_for(const std::filesystem::path& asset,
+                               const std::optional<std::filesystem::path>& cache_folder);
+
+// Fingerprints of the asset (first) and of `referenced` paths relative to the asset's folder. Unreadable or missing
+// files give found = false. Throws InputError when the asset itself cannot be read.
+// Cost: one pass over the bytes, constant memory.
+std::vector<analysis::FileFingerprint> fingerprint(const std::filesystem::path& asset,
+                                                   const std::vector<mesh::ReferencedFile>& referenced);
+
+// The content key: XXH3-128 over fingerprints, the parameters that change results, and the program version; 32 hex digits.
+std::string content_key(const analysis::AssetAnalysis& analysis);
+
+// Why a file was not used, one sentence without the path ("is truncated: ...", "was written by a newer version ...").
+// `absent` is the one silent case.
+struct Unusable {
+  bool absent = false;
+  std::string reason;
+};
+
+std::variant<analysis::AssetAnalysis, Unusable> load(const std::filesystem::path& file);
+
+// load(), and then checks that the file still describes `asset` as it lies on disk now (every referenced file
+// is hashed again) under `parameters`, computed by this program version. The metrics it holds are the caller's concern.
+std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem::path& file,
+                                                           const std::filesystem::path& asset,
+                                                           const analysis::Parameters& parameters);
+
+// Creates missing folders of the cache. Throws InputError with the system's reason when it cannot be written (read-only
+// folder, full disk); nothing is left behind then.
+void store(const std::filesystem::path& file, const analysis::AssetAnalysis& analysis);
+
+struct PruneResult {
+  std::uint64_t files_removed = 0, bytes_removed = 0, files_kept = 0, bytes_kept = 0;
+};
+// Removes `*.analysis` files below `folder` that are older than `max_age_days`, then the least recently used ones until at most
+// `max_bytes` remain; also leftovers of interrupted writes older than an hour. Other files are not touched.
+PruneResult prune(const std::filesystem::path& folder, std::optional<double> max_age_days,
+                  std::optional<std::uint64_t> max_bytes);
+
+}  // namespace scene_analyzer::analysis_file

@@ -1,0 +1,78 @@
+// scene.h — What one asset holds after import: geometries, where they stand, what they look like. Plain data.
+//
+// Rows of every table are *mesh instances*: one (node, mesh) pair, listed in depth-first node order (a node's
+// meshes first, then its children). Several instances may share one TriangleMesh.
+//
+// Arrays are spans into storage that the Scene keeps alive (shared memory filled by the import worker, or
+// vectors of a test); a Scene is cheap to move and immutable once built.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace scene_analyzer::mesh {
+
+// Row-major 4x4 for column vectors: world = M * (x, y, z, 1).
+using Matrix4 = std::array<double, 16>;
+// Row-major 3x3.
+using Matrix3 = std::array<double, 9>;
+using Vector3 = std::array<double, 3>;
+
+inline constexpr Matrix4 kIdentity4 = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+inline constexpr Matrix3 kIdentity3 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+struct TriangleMesh {
+  std::string name;
+  std::span<const float> positions;           // x, y, z per vertex, as in the file (local coordinates)
+  std::span<const std::uint32_t> indices;     // three per triangle, each < vertex_count()
+  std::span<const float> texture_coordinates; // u, v per vertex; empty when the file has none
+  std::uint32_t material = 0;                 // index into Scene::materials
+  std::uint64_t skipped_primitives = 0;       // points and lines, which are not counted
+
+  std::uint64_t vertex_count() const { return positions.size() / 3; }
+  std::uint64_t triangle_count() const { return indices.size() / 3; }
+};
+
+struct Instance {
+  std::uint32_t mesh = 0;         // index into Scene::meshes
+  std::string node;               // name of the node that holds it
+  Matrix4 world = kIdentity4;     // product of the node matrices, in double
+};
+
+struct Material {
+  std::string name;
+  std::optional<std::array<float, 4>> base_color;  // linear RGBA in [0,1]; absent for Assimp's DefaultMaterial
+  std::optional<std::uint32_t> texture;            // index into Scene::textures
+};
+
+struct Texture {
+  std::string path;                       // as the file names it; empty for an unnamed embedded one
+  std::span<const std::uint8_t> encoded;  // embedded file bytes (PNG, JPEG, ...), empty when external
+};
+
+// A file that the asset is made of, the asset itself first.
+struct ReferencedFile {
+  std::string path;   // relative to the asset's folder
+  bool found = true;  // false: the asset asks for it but it is not there
+};
+
+struct Scene {
+  std::string asset;  // path as given by the user
+  std::vector<TriangleMesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<ReferencedFile> files;
+  std::vector<std::string> warnings;  // one sentence each, without the asset's name
+  std::string format;                 // importer's name of the format, for example "glTF2"
+  std::optional<double> unit_scale;   // metres per unit where the format says so
+  std::optional<std::string> up_axis; // "+Y", "-Z", ... where the format says so
+  std::shared_ptr<const void> storage;
+};
+
+}  // namespace scene_analyzer::mesh
