@@ -1,0 +1,28 @@
+// types.h — One language for parameter structs: included by GLSL and by C++.
+//
+// In GLSL blocks are declared `scalar`, so both sides have the same layout by rule; tests/gpu compares every
+// member's offset in the SPIR-V with offsetof.
+#ifndef SCENE_ANALYZER_INTERFACE_TYPES_H
+#define SCENE_ANALYZER_INTERFACE_TYPES_H
+
+#ifdef __cplusplus
+#include <array>
+#include <cstdint>
+#define INTERFACE_BEGIN(room) namespace scene_analyzer::interface::room {
+#define INTERFACE_END }
+namespace scene_analyzer::interface {
+using uint = std::uint32_t;
+using uint64_t = std::uint64_t;
+using vec3 = std::array<float, 3>;
+using dvec3 = std::array<double, 3>;
+}  // namespace scene_analyzer::interface
+#define INTERFACE_CONST inline constexpr
+#else
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#define INTERFACE_BEGIN(room)
+#define INTERFACE_END
+#define INTERFACE_CONST const
+#endif
+
+#endif
