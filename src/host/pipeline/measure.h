@@ -1,0 +1,36 @@
+// measure.h — The GPU recipe: scene -> analyses, every stage over whole batches of meshes.
+//
+// Geometries are deduplicated first (instances under similarity transforms share one), cut into batches by the device's memory and
+// buffer limits, and each batch runs through welding, areas, adjacency, planar groups, area classes and co-occurrence.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "analysis/analysis.h"
+#include "gpu/device.h"
+#include "mesh/scene.h"
+
+namespace scene_analyzer::pipeline {
+
+// Called between steps: fraction done of the current asset in [0,1] and what is being done ("planar groups").
+using Progress = std::function<void(double fraction, const std::string& step)>;
+
+class Measurer {
+ public:
+  explicit Measurer(gpu::Device& device);  // creates kernels lazily, once
+  ~Measurer();
+
+  // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds always). A geometry beyond
+  // a limit of the device gets `not_analysed` with need and limit. Throws gpu::DeviceLost, gpu::OutOfMemory.
+  // Cost: linear in triangles but for sorting areas; device memory under 200 bytes per triangle.
+  void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
+               const Progress& progress, analysis::AssetAnalysis& analysis);
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace scene_analyzer::pipeline

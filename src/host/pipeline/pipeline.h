@@ -1,0 +1,53 @@
+// pipeline.h — Asset path -> analysis, through the analysis file when it is still true: the product's summary.
+//
+//   analysis file valid?  -> done, neither import nor GPU is touched
+//   import (worker)       -> Scene
+//   measure (GPU)         -> AssetAnalysis
+//   store analysis file   -> next run is instant
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/analysis.h"
+#include "import/import.h"
+#include "pipeline/measure.h"
+
+namespace scene_analyzer::pipeline {
+
+struct Options {
+  analysis::Parameters parameters;
+  analysis::MetricSet metrics = analysis::MetricSet().set();
+  bool use_analysis_files = true;                     // --no-cache: neither read nor written
+  std::optional<std::filesystem::path> cache_folder;  // --cache-dir
+  import::Limits import_limits;
+};
+
+// What became of one asset. Exactly one of `analysis` and `error` is meaningful.
+struct Outcome {
+  std::optional<analysis::AssetAnalysis> analysis;
+  std::string error;                  // names the file and the reason
+  bool from_file = false;             // the analysis file was valid
+  std::vector<std::string> messages;  // for the log, at warning level: analysis file stale, folder read-only, import warnings, meshes beyond a limit
+};
+
+class Pipeline {
+ public:
+  // `device` is called at most once, when something has to be computed for the first time.
+  Pipeline(Options options, std::function<gpu::Device&()> device);
+  ~Pipeline();
+
+  // Never throws for a bad asset (that is an Outcome); throws gpu::NoDevice and gpu::DeviceLost, after which the rest makes no sense.
+  Outcome analyze(const std::filesystem::path& asset, const Progress& progress = {});
+
+ private:
+  Options options_;
+  std::function<gpu::Device&()> device_;
+  std::unique_ptr<Measurer> measurer_;
+};
+
+}  // namespace scene_analyzer::pipeline
