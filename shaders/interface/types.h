@@ -10,11 +10,9 @@
 #include <cstdint>
 #define INTERFACE_BEGIN(room) namespace scene_analyzer::interface::room {
 #define INTERFACE_END }
+#define INTERFACE_ARRAY(type, name, count) std::array<type, count> name
 namespace scene_analyzer::interface {
 using uint = std::uint32_t;
-using uint64_t = std::uint64_t;
-using vec3 = std::array<float, 3>;
-using dvec3 = std::array<double, 3>;
 }  // namespace scene_analyzer::interface
 #define INTERFACE_CONST inline constexpr
 #else
@@ -22,6 +20,7 @@ using dvec3 = std::array<double, 3>;
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #define INTERFACE_BEGIN(room)
 #define INTERFACE_END
+#define INTERFACE_ARRAY(type, name, count) type name[count]
 #define INTERFACE_CONST const
 #endif
 

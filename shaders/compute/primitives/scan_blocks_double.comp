@@ -1,0 +1,5 @@
+// scan_blocks_double.comp — scan_blocks.glsl for double.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define VALUE double
+#include "compute/primitives/scan_blocks.glsl"

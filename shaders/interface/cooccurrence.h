@@ -1,0 +1,56 @@
+// cooccurrence.h — Parameters of the co-occurrence room's kernels.
+#ifndef SCENE_ANALYZER_INTERFACE_COOCCURRENCE_H
+#define SCENE_ANALYZER_INTERFACE_COOCCURRENCE_H
+#include "mesh.h"
+
+INTERFACE_BEGIN(cooccurrence)
+
+INTERFACE_CONST uint kClassBlock = 512;   // sorted areas per thread when classes are formed
+INTERFACE_CONST uint kBins = 64;          // per axis of the binned histogram
+
+// Key: mesh, then exponent, then the leading bits of the mantissa of the area; all ones for degenerate triangles.
+struct KeyParams {
+  uint triangles;
+  uint exponent_bits;
+  uint mantissa_bits;
+  uint least_exponent;   // biased, of the smallest kept area of the batch
+};
+
+// A mesh's kept triangles within the list of all sorted by area.
+struct SortedRange {
+  uint first;
+  uint count;
+  uint first_block;   // blocks of kClassBlock sorted areas
+};
+
+struct SortedParams {
+  uint count;        // kept triangles of the batch
+  uint triangles;    // all triangles of the batch
+  uint blocks;
+  uint meshes;
+};
+
+// The area classes of one mesh, numbered over the batch.
+struct ClassRange {
+  double lowest;     // attribute of the first class
+  double highest;    // of the last
+  uint first;
+  uint count;        // 0 without a kept triangle
+};
+
+struct ContrastParams {
+  uint chunk_count;
+};
+
+struct SharedValueParams {
+  uint count;        // shared half-edges
+};
+
+struct BinParams {
+  uint first_mesh;   // histogram 0 belongs to this mesh
+  uint chunk_first;
+  uint chunk_count;
+};
+
+INTERFACE_END
+#endif
