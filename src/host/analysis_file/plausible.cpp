@@ -1,0 +1,110 @@
+#include "analysis_file/plausible.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace scene_analyzer::analysis_file {
+namespace {
+
+using Reason = std::optional<std::string>;
+
+constexpr std::array<std::string_view, 6> kDeviceTypes = {"",        "discrete", "integrated",
+                                                          "virtual", "cpu",      "other"};
+constexpr std::array<std::string_view, 6> kAxes = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+// Sums of rounded terms may pass the ends of [0,1] by a little.
+constexpr double kRounding = 1e-6;
+
+template <typename Words>
+bool contains(const Words& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_rating(const std::optional<double>& value) {
+  return !value || (*value >= -kRounding && *value <= 1 + kRounding);  // false for NaN
+}
+
+bool is_length(double value) {
+  return std::isfinite(value) && value >= 0;
+}
+
+bool at_most(const std::optional<std::uint64_t>& value, std::uint64_t limit) {
+  return !value || *value <= limit;
+}
+
+Reason parameters_reason(const analysis::Parameters& parameters) {
+  if (!(parameters.alpha_degrees >= 0 && parameters.alpha_degrees <= 180)) return "alpha outside [0, 180]";
+  if (parameters.dim < 2) return "dim below 2";
+  if (!is_length(parameters.weld_tolerance)) return "weld tolerance negative or not finite";
+  if (parameters.steps < 1) return "steps below 1";
+  return std::nullopt;
+}
+
+Reason geometry_reason(const analysis::GeometryAnalysis& geometry) {
+  const std::uint64_t n = geometry.triangles;
+  const bool counted =
+      geometry.source_triangles >= n && geometry.source_triangles - n == geometry.degenerate_triangles;
+  if (geometry.not_analysed.empty() && !counted)
+    return "source triangles are not the sum of kept and degenerate ones";
+  if (!is_length(geometry.surface_area)) return "surface area negative or not finite";
+  if (!at_most(geometry.planar_groups, n) || !at_most(geometry.largest_planar_group, n) ||
+      !at_most(geometry.components, n) || !at_most(geometry.isolated_triangles, n) ||
+      !at_most(geometry.area_classes, n))
+    return "more parts than triangles";
+  const std::uint64_t sides = n > UINT64_MAX / 3 ? UINT64_MAX : 3 * n;
+  if (!at_most(geometry.boundary_edges, sides) || !at_most(geometry.non_manifold_edges, sides))
+    return "more edges than sides of triangles";
+  if (!is_rating(geometry.polygons_per_planar_group) || !is_rating(geometry.planar_group_variation) ||
+      !is_rating(geometry.cooccurrence_contrast) || !is_rating(geometry.fourier_transform))
+    return "a rating outside [0, 1]";
+  return std::nullopt;
+}
+
+Reason instance_reason(const analysis::InstanceAnalysis& instance, std::size_t geometries) {
+  if (instance.geometry >= geometries)
+    return "geometry " + std::to_string(instance.geometry) + " of " + std::to_string(geometries);
+  if (!is_length(instance.area_scale)) return "area scale negative or not finite";
+  if (!instance.bounds) return std::nullopt;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = instance.bounds->min[axis];
+    const double high = instance.bounds->max[axis];
+    if (!std::isfinite(low) || !std::isfinite(high) || low > high) return "bounds inverted or not finite";
+  }
+  return std::nullopt;
+}
+
+Reason file_reason(const analysis::FileFingerprint& file) {
+  if (file.path.empty() || file.path.find('\0') != std::string::npos) return "no usable path";
+  if (!file.found && (file.size != 0 || file.hash[0] != 0 || file.hash[1] != 0))
+    return "contents without a file";
+  return std::nullopt;
+}
+
+// The first reason among `items`, with what and which.
+template <typename Items, typename Judge>
+Reason first_reason(const char* what, const Items& items, Judge judge) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (const Reason reason = judge(items[i]))
+      return std::string(what) + " " + std::to_string(i) + ": " + *reason;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Reason implausible(const analysis::AssetAnalysis& analysis) {
+  if (Reason reason = parameters_reason(analysis.parameters)) return reason;
+  if (!contains(kDeviceTypes, analysis.device.type))
+    return "unknown device type '" + analysis.device.type + "'";
+  if (analysis.up_axis && !contains(kAxes, *analysis.up_axis))
+    return "unknown axis '" + *analysis.up_axis + "'";
+  if (analysis.unit_scale && !std::isfinite(*analysis.unit_scale)) return "unit scale not finite";
+  if (analysis.files.empty() || !analysis.files.front().found) return "no fingerprint of the asset";
+  if (Reason reason = first_reason("file", analysis.files, file_reason)) return reason;
+  if (Reason reason = first_reason("geometry", analysis.geometries, geometry_reason)) return reason;
+  const std::size_t geometries = analysis.geometries.size();
+  return first_reason("instance", analysis.instances,
+                      [geometries](const auto& instance) { return instance_reason(instance, geometries); });
+}
+
+}  // namespace scene_analyzer::analysis_file

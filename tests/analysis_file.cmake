@@ -1,0 +1,3 @@
+test_binary(analysis_file
+  SOURCES round_trip_test.cpp damaged_test.cpp stale_test.cpp path_test.cpp store_test.cpp prune_test.cpp
+  LINK analysis_file analysis_proto)

@@ -1,0 +1,149 @@
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <random>
+#include <thread>
+
+#include "analysis_file/sample.h"
+#include "base/error.h"
+
+namespace scene_analyzer::analysis_file {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using Store = FolderTest;
+
+// The message of a store that has to fail.
+std::string failure(const fs::path& file, const analysis::AssetAnalysis& analysis) {
+  try {
+    store(file, analysis);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Runs `body` in a child, whose limits and death are its own; returns its wait status.
+template <typename Body>
+int in_child(Body body) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(body());
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return status;
+}
+
+TEST_F(Store, MissingFoldersAreCreated) {
+  store(folder / "a/b/c/x.analysis", full_analysis());
+  EXPECT_TRUE(std::holds_alternative<analysis::AssetAnalysis>(load(folder / "a/b/c/x.analysis")));
+}
+
+TEST_F(Store, UnwritablePlacesAreNamedWithReasonAndRemedy) {
+  write_text(folder / "file", "");
+  const auto remedy = AllOf(HasSubstr("--cache-dir"), HasSubstr("--no-cache"));
+  const fs::path below_file = folder / "file" / "x.analysis";
+  EXPECT_THAT(failure(below_file, full_analysis()),
+              AllOf(HasSubstr(below_file.string()), HasSubstr("Not a directory"), remedy));
+  EXPECT_THAT(failure("/proc/self/x.analysis", full_analysis()),
+              AllOf(HasSubstr("/proc/self/x.analysis"), remedy));
+  EXPECT_THAT(failure(folder / (std::string(300, 'x') + ".analysis"), full_analysis()),
+              AllOf(HasSubstr("File name too long"), remedy));
+  EXPECT_EQ(entries(folder), 1);
+}
+
+// A folder without write permission stops everyone but root, who has to become someone else first.
+TEST_F(Store, FolderWithoutWritePermission) {
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                              fs::perms::others_exec);
+  const int status = in_child([&] {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) return 2;
+    return failure(folder / "x.analysis", full_analysis()).find("Permission denied") != std::string::npos ? 0
+                                                                                                          : 1;
+  });
+  fs::permissions(folder, fs::perms::owner_all);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(entries(folder), 0);
+}
+
+TEST_F(Store, TargetThatIsAFolderLeavesNothingBehind) {
+  fs::create_directories(folder / "x.analysis/kept");
+  EXPECT_THAT(failure(folder / "x.analysis", full_analysis()), HasSubstr("directory"));
+  EXPECT_EQ(entries(folder), 1);
+}
+
+// The limit cuts a write short first and refuses the next one: the same two steps as a disk that fills up.
+TEST_F(Store, WriteThatCannotFinishLeavesTheOldFile) {
+  store(folder / "x.analysis", full_analysis());
+  const std::string before = read_text(folder / "x.analysis");
+  const int status = in_child([&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit = {before.size() / 2, before.size() / 2};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
+    return failure(folder / "x.analysis", full_analysis()).find("File too large") != std::string::npos ? 0
+                                                                                                       : 1;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_text(folder / "x.analysis"), before);
+  EXPECT_EQ(entries(folder), 1);
+}
+
+TEST_F(Store, FullDisk) {
+  if (::mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=64k") != 0)
+    GTEST_SKIP() << "mounting a small file system needs privileges";
+  auto large = full_analysis();
+  large.warnings.assign(1, std::string(200000, 'w'));
+  const std::string message = failure(folder / "x.analysis", large);
+  const auto left = entries(folder);
+  store(folder / "small.analysis", full_analysis());
+  ASSERT_EQ(::umount(folder.c_str()), 0);
+  EXPECT_THAT(message, AllOf(HasSubstr("No space left on device"), HasSubstr("--cache-dir")));
+  EXPECT_EQ(left, 0);
+}
+
+TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
+  auto large = full_analysis();
+  large.geometries.assign(5000, full_geometry());
+  std::mt19937 random(7);
+  int present = 0;
+  for (int round = 0; round < 30; ++round) {
+    const fs::path file = folder / (std::to_string(round) + ".analysis");
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (std::uint32_t i = 0;; ++i) {
+        large.geometries[0].mesh = i;
+        store(file, large);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500 + random() % 30000));
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the child has to be killed, not to end";
+    const auto loaded = load(file);
+    const auto* unusable = std::get_if<Unusable>(&loaded);
+    if (unusable == nullptr) ++present;
+    EXPECT_TRUE(unusable == nullptr || unusable->absent) << unusable->reason;
+  }
+  std::printf("whole after %d of 30 kills, absent after the others\n", present);
+  EXPECT_GT(present, 0) << "no kill came after a first store: the times are wrong";
+}
+
+TEST_F(Store, ManyWritersOfOneFile) {
+  std::vector<std::thread> writers;
+  for (int i = 0; i < 4; ++i)
+    writers.emplace_back([this] {
+      for (int j = 0; j < 20; ++j) store(folder / "x.analysis", full_analysis());
+    });
+  for (auto& writer : writers) writer.join();
+  EXPECT_TRUE(std::holds_alternative<analysis::AssetAnalysis>(load(folder / "x.analysis")));
+  EXPECT_EQ(entries(folder), 1);
+}
+
+}  // namespace
+}  // namespace scene_analyzer::analysis_file
