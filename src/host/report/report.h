@@ -12,7 +12,7 @@ namespace scene_analyzer::report {
 
 struct SceneReport {
   std::string tool_version;
-  analysis::DeviceStamp device;              // empty strings when nothing had to be computed
+  analysis::DeviceStamp device;  // empty strings when nothing had to be computed
   analysis::Parameters parameters;
   ratings::Options options;
   std::span<const analysis::AssetAnalysis> assets;
@@ -20,9 +20,9 @@ struct SceneReport {
 };
 
 struct TableStyle {
-  bool color = false;           // ANSI 24-bit background of rating cells
-  std::size_t width = 0;        // columns of the terminal, 0: unlimited; long names are shortened in the middle
-  std::size_t max_rows = 0;     // 0: all
+  bool color = false;        // ANSI 24-bit background of rating cells
+  std::size_t width = 0;     // columns of the terminal, 0: unlimited; long names are shortened in the middle
+  std::size_t max_rows = 0;  // 0: all
 };
 
 std::string table(const SceneReport& report, const TableStyle& style);

@@ -1,0 +1,160 @@
+// table.cpp — The report for people: one line per mesh, rating cells coloured by what they say.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "report/report.h"
+#include "report/terminal_text.h"
+
+namespace scene_analyzer::report {
+namespace {
+
+using analysis::GeometryAnalysis;
+using analysis::InstanceAnalysis;
+using analysis::kMetricCount;
+using analysis::kMetricSymbols;
+
+constexpr std::size_t kCountWidth = 9;   // 100 million triangles; longer counts push their row aside
+constexpr std::size_t kRatingWidth = 7;  // -0.1234
+constexpr std::size_t kNumbersWidth = 2 * (1 + kCountWidth) + (kMetricCount + 1) * (1 + kRatingWidth);
+constexpr std::size_t kLeastNameWidth = 12;
+constexpr std::size_t kMostNameWidth = 64;  // one absurd name must not blow up every row
+
+// What stands before the names of an asset's meshes: nothing for a single asset, else its file name, or its
+// path where two assets have that file name.
+std::vector<std::string> asset_prefixes(std::span<const analysis::AssetAnalysis> assets) {
+  std::vector<std::string> prefixes(assets.size());
+  if (assets.size() < 2) return prefixes;
+  std::unordered_map<std::string, int> uses;
+  for (const auto& asset : assets) ++uses[std::filesystem::path(asset.asset).filename().string()];
+  for (std::size_t i = 0; i < assets.size(); ++i) {
+    const std::string file = std::filesystem::path(assets[i].asset).filename().string();
+    prefixes[i] = (uses[file] > 1 ? assets[i].asset : file) + ": ";
+  }
+  return prefixes;
+}
+
+struct Row {
+  std::u32string name;
+  const GeometryAnalysis* geometry = nullptr;
+  const ratings::MeshRating* rating = nullptr;
+};
+
+std::vector<Row> rows_of(const SceneReport& report, std::size_t count) {
+  const std::vector<std::string> prefixes = asset_prefixes(report.assets);
+  std::vector<Row> rows;
+  rows.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ratings::MeshRating& mesh = report.rating.meshes[i];
+    const analysis::AssetAnalysis& asset = report.assets[mesh.asset];
+    const InstanceAnalysis& instance = asset.instances.at(mesh.instance);
+    std::string name = instance.node.empty() ? instance.mesh : instance.node;
+    if (name.empty()) name = "(unnamed)";
+    rows.push_back({shortened(printable(prefixes[mesh.asset] + name), kMostNameWidth),
+                    &asset.geometries.at(instance.geometry), &mesh});
+  }
+  return rows;
+}
+
+std::size_t name_width(const std::vector<Row>& rows, std::size_t terminal) {
+  std::size_t widest = kLeastNameWidth;
+  for (const Row& row : rows) widest = std::max(widest, columns(row.name));
+  if (terminal == 0) return widest;
+  const std::size_t left = terminal > kNumbersWidth ? terminal - kNumbersWidth : 0;
+  return std::clamp(left, kLeastNameWidth, widest);
+}
+
+std::string padded_name(std::u32string_view name, std::size_t width) {
+  const std::u32string fitting = shortened(name, width);
+  return encode_utf8(fitting) + std::string(width - columns(fitting), ' ');
+}
+
+std::string rating_text(const std::optional<double>& rating) {
+  if (!rating) return "-";
+  // Never "-0.0000".
+  return fmt::format("{:.4f}", std::abs(*rating) < 0.00005 ? 0.0 : *rating);
+}
+
+void append_rating(std::string& out, const std::optional<double>& rating, const TableStyle& style) {
+  const std::string text = fmt::format("{:>{}}", rating_text(rating), kRatingWidth);
+  out += ' ';
+  if (!style.color || !rating) {
+    out += text;
+    return;
+  }
+  const ratings::Rgb color = ratings::color(*rating);
+  const auto byte = [](double channel) { return std::lround(channel * 255); };
+  const double luminance = 0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2];
+  out += fmt::format("\x1b[48;2;{};{};{}m\x1b[38;2;{}m{}\x1b[0m", byte(color[0]), byte(color[1]),
+                     byte(color[2]), luminance > 0.45 ? "0;0;0" : "255;255;255", text);
+}
+
+std::string count_text(const std::optional<std::uint64_t>& count) {
+  // Digits only: what stands here can be searched for in JSON and CSV.
+  return fmt::format(" {:>{}}", count ? fmt::to_string(*count) : "-", kCountWidth);
+}
+
+std::string head_line(std::size_t width) {
+  std::string line = padded_name(U"name", width);
+  line += fmt::format(" {:>{}} {:>{}}", "triangles", kCountWidth, "groups", kCountWidth);
+  for (const std::string_view symbol : kMetricSymbols) line += fmt::format(" {:>{}}", symbol, kRatingWidth);
+  return line + fmt::format(" {:>{}}\n", "R", kRatingWidth);
+}
+
+void append_row(std::string& out, const Row& row, std::size_t width, const SceneReport& report,
+                const TableStyle& style) {
+  const bool known = row.geometry->not_analysed.empty();
+  out += padded_name(row.name, width);
+  out += count_text(known ? std::optional(row.geometry->triangles) : std::nullopt);
+  out += count_text(row.geometry->planar_groups);
+  // The aggregate is made of these, so they are the ones to show beside it.
+  const auto& shown = report.options.relative ? row.rating->relative_ratings : row.rating->ratings;
+  for (const std::optional<double>& rating : shown) append_rating(out, rating, style);
+  append_rating(out, row.rating->aggregate, style);
+  out += '\n';
+}
+
+std::string plural(std::uint64_t count, std::string_view singular, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? singular : many);
+}
+
+std::string totals_line(const SceneReport& report) {
+  const ratings::SceneRating& scene = report.rating;
+  std::uint64_t not_analysed = 0;
+  for (const ratings::MeshRating& mesh : scene.meshes) {
+    const analysis::AssetAnalysis& asset = report.assets[mesh.asset];
+    if (!asset.geometries.at(asset.instances.at(mesh.instance).geometry).not_analysed.empty()) ++not_analysed;
+  }
+  std::string line = plural(scene.meshes.size(), "mesh", "meshes") + ", " +
+                     plural(scene.drawn_triangles, "triangle", "triangles");
+  if (scene.unique_triangles != scene.drawn_triangles)
+    line += fmt::format(" ({} unique)", scene.unique_triangles);
+  if (scene.degenerate_triangles > 0)
+    line += fmt::format(", {} degenerate left out", scene.degenerate_triangles);
+  if (not_analysed > 0) line += fmt::format(", {} not analysed", plural(not_analysed, "mesh", "meshes"));
+  if (report.options.relative) line += "; ratings relative to this scene";
+  return line + '\n';
+}
+
+}  // namespace
+
+std::string table(const SceneReport& report, const TableStyle& style) {
+  const UnicodeScope unicode;
+  const std::size_t total = report.rating.meshes.size();
+  const std::size_t shown = style.max_rows == 0 ? total : std::min(total, style.max_rows);
+  const std::vector<Row> rows = rows_of(report, shown);
+  const std::size_t width = name_width(rows, style.width);
+
+  std::string out = head_line(width);
+  for (const Row& row : rows) append_row(out, row, width, report, style);
+  if (shown < total)
+    out += fmt::format("... and {} (all of them are in the JSON and CSV reports)\n",
+                       plural(total - shown, "more mesh", "more meshes"));
+  const std::size_t rule = width + kNumbersWidth;
+  out += std::string(style.width == 0 ? rule : std::min(rule, style.width), '-') + '\n';
+  return out + totals_line(report);
+}
+
+}  // namespace scene_analyzer::report

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report/fixture.h"
+
+namespace scene_analyzer::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json parsed(const SceneReport& report) {
+  return ordered_json::parse(json(report));
+}
+
+std::vector<std::string> keys_of(const ordered_json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+// Exit status of the validator over one document; its findings go to the test's output.
+int validate(const std::string& document) {
+  const TemporaryFolder folder;
+  write_file(folder.path / "report.json", document);
+  const std::string source = SCENE_ANALYZER_SOURCE_DIR;
+  const std::string command = "/usr/bin/python3 '" + source + "/tests/report/validate_report.py' '" + source +
+                              "/docs/schema/report-v1.schema.json' '" +
+                              (folder.path / "report.json").string() + "'";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Json, HasItsFieldsInOrder) {
+  const Fixture fixture = two_assets();
+  const ordered_json document = parsed(fixture.report());
+  EXPECT_EQ(keys_of(document),
+            (std::vector<std::string>{"schema_version", "tool", "parameters", "scene", "assets", "meshes"}));
+  EXPECT_EQ(document["schema_version"], 1);
+  const ordered_json tool = {{"version", "0.1.0"},
+                             {"device", "llvmpipe (LLVM 15)"},
+                             {"driver", "Mesa 22.3.6"},
+                             {"device_type", "cpu"}};
+  EXPECT_EQ(document["tool"], tool);
+  EXPECT_EQ(document["parameters"]["weights"]["distance"], 1.0);
+  EXPECT_EQ(document["parameters"]["metrics"].size(), 7u);
+  EXPECT_TRUE(document["parameters"]["eye"].is_null());
+  EXPECT_EQ(document["scene"]["mesh_count"], 5);
+  EXPECT_EQ(document["scene"]["unique_triangles"], 80);
+  EXPECT_EQ(document["scene"]["drawn_triangles"], 120);
+  EXPECT_EQ(document["assets"][0]["unit_scale"], 1.0);
+  EXPECT_TRUE(document["assets"][1]["up_axis"].is_null());
+  EXPECT_EQ(document["assets"][0]["warnings"].size(), 1u);
+}
+
+TEST(Json, PrintsAMeshWithNumbersAsNumbers) {
+  const Fixture fixture = two_assets();
+  const SceneReport report = fixture.report();
+  const ordered_json mesh = parsed(report)["meshes"][1];
+  EXPECT_EQ(mesh["index"], 1);
+  EXPECT_EQ(mesh["asset"], "models/room.glb");
+  EXPECT_EQ(mesh["node"], "leg right");
+  EXPECT_EQ(mesh["source_triangles"], 41);
+  EXPECT_EQ(mesh["degenerate_triangles"], 1);
+  EXPECT_EQ(mesh["triangles"], 40);
+  EXPECT_EQ(mesh["planar_groups"], 12);
+  EXPECT_EQ(mesh["largest_planar_group"], 10);
+  EXPECT_EQ(mesh["area_classes"], 2);
+  EXPECT_EQ(mesh["surface_area"], 1.0);
+  EXPECT_EQ(mesh["density"], 40.0);
+  EXPECT_EQ(mesh["bounds"]["min"], ordered_json::parse("[3.0, 0.0, 0.0]"));
+  EXPECT_EQ(mesh["ratings"]["cooccurrence_contrast"].get<double>(), 1.0 / 3);  // every digit
+  EXPECT_TRUE(mesh["ratings"]["fourier_transform"].is_null());
+  EXPECT_TRUE(mesh["relative_ratings"]["rendering_time"].is_null());
+  EXPECT_EQ(mesh["aggregate"].get<double>(), *report.rating.meshes[1].aggregate);
+  EXPECT_EQ(mesh["color"], ratings::to_hex(ratings::color(*report.rating.meshes[1].aggregate)));
+  EXPECT_TRUE(mesh["not_analysed"].is_null());
+}
+
+TEST(Json, PrintsAbsentFiguresAsNull) {
+  const Fixture fixture = two_assets();
+  const ordered_json meshes = parsed(fixture.report())["meshes"];
+  EXPECT_EQ(meshes[2]["triangles"], 0);  // counted: there are none
+  EXPECT_TRUE(meshes[2]["aggregate"].is_null());
+  EXPECT_TRUE(meshes[2]["color"].is_null());
+  EXPECT_TRUE(meshes[2]["bounds"].is_null());
+  EXPECT_EQ(meshes[3]["source_triangles"], 900'000'000);
+  EXPECT_TRUE(meshes[3]["triangles"].is_null());  // unknown: beyond the device
+  EXPECT_TRUE(meshes[3]["surface_area"].is_null());
+  EXPECT_THAT(meshes[3]["not_analysed"].get<std::string>(), ::testing::HasSubstr("40 GiB"));
+}
+
+TEST(Json, NeverPrintsWhatIsNotANumber) {
+  Fixture fixture = two_assets();
+  const double infinity = std::numeric_limits<double>::infinity();
+  fixture.assets[0].instances[0].bounds->max[1] = infinity;
+  fixture.assets[0].instances[1].area_scale = infinity;
+  fixture.assets[0].geometries[0].cooccurrence_contrast = std::numeric_limits<double>::quiet_NaN();
+  const std::string text = json(fixture.report());
+  const ordered_json meshes = ordered_json::parse(text)["meshes"];
+  EXPECT_TRUE(meshes[0]["bounds"].is_null());
+  EXPECT_TRUE(meshes[1]["surface_area"].is_null());
+  EXPECT_TRUE(meshes[1]["density"].is_null());
+  EXPECT_EQ(text.find("-0.0"), std::string::npos);  // the fixture's bounds have one
+  EXPECT_EQ(validate(text), 0);
+}
+
+TEST(Json, KeepsHostileNamesAndReplacesBrokenUtf8) {
+  const Fixture fixture = two_assets();
+  const std::string text = json(fixture.report());
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_EQ(ordered_json::parse(text)["meshes"][4]["mesh"],
+            "say \"hi\", \x1b[31mred\x1b[0m\nnew\xef\xbf\xbd line \xc3\xa4\xe6\xbc\xa2");
+}
+
+TEST(Json, IsDeterministicAndEndsItsLine) {
+  const Fixture fixture = two_assets();
+  const std::string text = json(fixture.report());
+  EXPECT_EQ(text, json(fixture.report()));
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(text, ordered_json::parse(text).dump(2) + "\n");  // indented like one document
+}
+
+TEST(Json, NamesTheDeviceOfTheAnalysisFilesWhenNothingWasComputed) {
+  Fixture fixture = two_assets();
+  for (auto& asset : fixture.assets) asset.device = {"GPU", "1.2", "discrete"};
+  SceneReport report = fixture.report();
+  report.device = {};
+  EXPECT_EQ(parsed(report)["tool"]["device"], "GPU");
+  fixture.assets[1].device.driver = "1.3";
+  report = fixture.report();
+  report.device = {};
+  EXPECT_TRUE(parsed(report)["tool"]["device"].is_null());
+  EXPECT_TRUE(parsed(report)["tool"]["device_type"].is_null());
+}
+
+TEST(Json, ColorFollowsRelativeModeAndSignedDensity) {
+  Fixture fixture = two_assets();
+  fixture.options.metrics.reset().set(analysis::index_of(analysis::Metric::kRelativeDensity));
+  fixture.options.relative = true;
+  const ordered_json meshes = parsed(fixture.report())["meshes"];
+  EXPECT_EQ(meshes[1]["aggregate"], -1.0);
+  EXPECT_EQ(meshes[1]["color"], "#0000ff");
+  EXPECT_EQ(meshes[0]["color"], "#ff0000");
+}
+
+TEST(Schema, AcceptsRealReports) {
+  Fixture fixture = two_assets();
+  EXPECT_EQ(validate(json(fixture.report())), 0);
+  fixture.options.relative = true;
+  fixture.options.eye = mesh::Vector3{1, 2, 3};
+  fixture.options.weights = {0, 0.5, 2, 0, 0, 0, 0};
+  fixture.options.metrics.reset().set(2);
+  EXPECT_EQ(validate(json(fixture.report())), 0);
+  EXPECT_EQ(validate(json(Fixture().report())), 0);  // a scene of nothing
+}
+
+TEST(Schema, RefusesWhatIsNotTheReport) {
+  const Fixture fixture = two_assets();
+  const ordered_json good = parsed(fixture.report());
+  const auto faulty = [&](const std::string& pointer, const ordered_json& value) {
+    ordered_json document = good;
+    document[ordered_json::json_pointer(pointer)] = value;
+    return validate(document.dump());
+  };
+  EXPECT_EQ(validate(good.dump()), 0);
+  EXPECT_EQ(faulty("/meshes/0/triangles", "40"), 1);  // a number as a string
+  EXPECT_EQ(faulty("/meshes/0/ratings/distance", 1.5), 1);
+  EXPECT_EQ(faulty("/meshes/0/ratings/new_metric", 0.5), 1);
+  EXPECT_EQ(faulty("/meshes/0/surprise", 1), 1);
+  EXPECT_EQ(faulty("/scene/surprise", 1), 1);
+  EXPECT_EQ(faulty("/meshes/0/color", "red"), 1);
+  EXPECT_EQ(faulty("/schema_version", 2), 1);
+  ordered_json missing = good;
+  missing["meshes"][0].erase("density");
+  EXPECT_EQ(validate(missing.dump()), 1);
+}
+
+TEST(Json, OfAHundredThousandMeshesTakesAboutASecond) {
+  const Fixture fixture = many_instances(100'000);
+  const SceneReport report = fixture.report();
+  const auto timed = [&](auto&& write) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_GT(write().size(), 100'000u);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double json_seconds = timed([&] { return json(report); });
+  const double csv_seconds = timed([&] { return csv(report); });
+  const double table_seconds = timed([&] { return table(report, {.color = true}); });
+  std::printf("100000 meshes: JSON %.2f s, CSV %.2f s, table %.2f s\n", json_seconds, csv_seconds,
+              table_seconds);
+  EXPECT_LT(json_seconds, 30);  // a quadratic step would take minutes; slow machines and sanitizers do not
+  EXPECT_LT(csv_seconds, 30);
+  EXPECT_LT(table_seconds, 30);
+}
+
+}  // namespace
+}  // namespace scene_analyzer::report
