@@ -61,7 +61,7 @@ TEST(MergeClasses, AgreesWithScanningAllPairsOnMeshes) {
   for (const test_meshes::TestMesh& mesh : test_meshes::small_catalogue()) {
     const Evaluation stages = evaluate_stages(mesh);
     AreaClasses classes = distinct_areas(stages.triangles.area, stages.triangles.kept);
-    if (classes.value.size() > 600) classes.value.resize(600);
+    if (classes.value.size() > 300) classes.value.resize(300);
     for (const std::size_t dim : {2U, 10U, 100U})
       EXPECT_EQ(merge_classes(classes.value, dim), merge_classes_naive(classes.value, dim))
           << mesh.name << " to " << dim;

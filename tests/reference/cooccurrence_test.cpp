@@ -45,7 +45,7 @@ TEST(Cooccurrence, AgreesWithAllPairs) {
 
 TEST(Cooccurrence, HistogramsCountOrderedPairsOfNeighbours) {
   for (const test_meshes::TestMesh& mesh : test_meshes::small_catalogue()) {
-    const Evaluation stages = evaluate_stages(mesh);
+    const Evaluation stages = evaluate_stages(mesh, {.dim = 200});
     const std::uint64_t expected = std::accumulate(stages.adjacency.neighbours.begin(),
                                                    stages.adjacency.neighbours.end(), std::uint64_t{0});
     std::uint64_t exact = 0;

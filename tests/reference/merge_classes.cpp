@@ -8,15 +8,16 @@
 namespace scene_analyzer::reference {
 namespace {
 
-// Neighbouring values differ by as little as 1e-7 of themselves and ten million of them are summed: 113 bits
-// hold those sums, and their products with a count, exactly as long as the areas span less than 2^30.
+// Neighbouring values differ by as little as 1e-7 of themselves and ten million of them are summed. With 113
+// bits even the difference of two such sums is right to far more than the 20 bits that count.
 __extension__ using Quad = __float128;
 
 constexpr int kSignificantBits = 20;
+constexpr std::uint32_t kFewValues = 48;  // up to here adding them up is faster than four quad operations
 
-double rounded_cost(Quad cost) {
+double rounded_cost(long double cost) {
   int exponent = 0;
-  const long double mantissa = std::frexp(static_cast<long double>(cost), &exponent);
+  const long double mantissa = std::frexp(cost, &exponent);
   return static_cast<double>(
       std::ldexp(std::nearbyint(std::ldexp(mantissa, kSignificantBits)), exponent - kSignificantBits));
 }
@@ -27,17 +28,33 @@ class UnionCost {
     for (std::size_t i = 0; i < values.size(); ++i) prefix_[i + 1] = prefix_[i] + Quad(values[i]);
   }
 
-  // sum |value - mean| over [left, right), rounded. What lies above the mean weighs as much as what lies
-  // below, so it is twice (mean * count below - sum below); multiplied by the count, everything before the
-  // division is exact.
+  // sum |value - mean| over [left, right), rounded.
   double operator()(std::uint32_t left, std::uint32_t right) const {
-    const Quad count = right - left;
-    const Quad sum = prefix_[right] - prefix_[left];
-    const std::uint32_t middle = first_above_mean(left, right, sum, count);
-    return rounded_cost(2 * (sum * Quad(middle - left) - count * (prefix_[middle] - prefix_[left])) / count);
+    return rounded_cost(right - left <= kFewValues ? by_adding(left, right) : by_prefix_sums(left, right));
   }
 
  private:
+  // Distances from the first value instead of values: nothing is left that could cancel.
+  long double by_adding(std::uint32_t left, std::uint32_t right) const {
+    const long double base = values_[left];
+    long double mean = 0;
+    for (std::uint32_t v = left; v < right; ++v) mean += values_[v] - base;
+    mean /= right - left;
+    long double cost = 0;
+    for (std::uint32_t v = left; v < right; ++v) cost += std::abs((values_[v] - base) - mean);
+    return cost;
+  }
+
+  // What lies above the mean weighs as much as what lies below, so the cost is twice (mean * count below -
+  // sum below). Multiplied by the count, only the last division rounds.
+  long double by_prefix_sums(std::uint32_t left, std::uint32_t right) const {
+    const Quad count = right - left;
+    const Quad sum = prefix_[right] - prefix_[left];
+    const std::uint32_t middle = first_above_mean(left, right, sum, count);
+    const Quad times_count = 2 * (sum * Quad(middle - left) - count * (prefix_[middle] - prefix_[left]));
+    return static_cast<long double>(times_count / count);
+  }
+
   std::uint32_t first_above_mean(std::uint32_t left, std::uint32_t right, Quad sum, Quad count) const {
     const auto begin = values_.begin();
     auto middle = static_cast<std::uint32_t>(
@@ -108,7 +125,7 @@ std::vector<std::uint32_t> merge_classes_naive(std::span<const double> values, s
     Quad deviation = 0;
     for (std::size_t v = from; v < to; ++v)
       deviation += Quad(values[v]) < mean ? mean - Quad(values[v]) : Quad(values[v]) - mean;
-    return rounded_cost(deviation);
+    return rounded_cost(static_cast<long double>(deviation));
   };
   while (starts.size() > dim) {
     std::size_t best = 0;
