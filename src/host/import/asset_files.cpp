@@ -1,0 +1,117 @@
+#include "import/asset_files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+namespace scene_analyzer::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_url(std::string_view text) {
+  const std::size_t colon = text.find("://");
+  return colon != std::string_view::npos && colon > 1 &&
+         std::all_of(text.begin(), text.begin() + colon, [](char c) {
+           return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+         });
+}
+
+bool has_drive_letter(std::string_view text) {
+  return text.size() >= 2 && text[1] == ':' && std::isalpha(static_cast<unsigned char>(text[0]));
+}
+
+bool is_file(const std::string& path) {
+  std::error_code ignored;  // a name that cannot be looked up is not there
+  return fs::is_regular_file(path, ignored);
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+}  // namespace
+
+Reference resolve_reference(const fs::path& folder, std::string_view text) {
+  if (is_url(text)) return {Reference::Kind::kUrl, {}};
+  std::string slashed(text);
+  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  if (slashed.starts_with('/') || has_drive_letter(slashed)) return {Reference::Kind::kOutside, {}};
+  const fs::path relative = (folder / slashed).lexically_normal().lexically_relative(folder);
+  if (relative.empty() || *relative.begin() == "..") return {Reference::Kind::kOutside, {}};
+  return {Reference::Kind::kInside, relative.generic_string()};
+}
+
+std::string decode_percent(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    if (low < 0) {
+      decoded += text[i];
+    } else {
+      decoded += static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+  }
+  return decoded;
+}
+
+AssetFiles::AssetFiles(std::string asset_name) : asset_(std::move(asset_name)), folder_(fs::current_path()) {
+  record(asset_, true);
+}
+
+AssetFiles::Found AssetFiles::look_up(std::string_view text) const {
+  // The asset's own name is taken as it is: it may hold any character.
+  if (text == asset_) return {Reference::Kind::kInside, "./" + asset_};
+  const Reference plain = resolve_reference(folder_, text);
+  if (plain.kind != Reference::Kind::kInside || is_file(plain.path)) return {plain.kind, plain.path};
+  if (text.find('%') != std::string_view::npos) {
+    const Reference decoded = resolve_reference(folder_, decode_percent(text));
+    // "%2e%2e/" is as much a way out as "../" is.
+    if (decoded.kind != Reference::Kind::kInside || is_file(decoded.path))
+      return {decoded.kind, decoded.path};
+  }
+  return {Reference::Kind::kInside, {}};
+}
+
+AssetFiles::Found AssetFiles::find(std::string_view text) {
+  Found found = look_up(text);
+  if (text == asset_) return found;
+  if (found.kind != Reference::Kind::kInside)
+    refused_.emplace(text);
+  else if (found.path.empty())
+    record(resolve_reference(folder_, text).path, false);
+  else
+    record(found.path, true);
+  return found;
+}
+
+AssetFiles::Found AssetFiles::find_guess(std::string_view text) {
+  Found found = look_up(text);
+  if (!found.path.empty() && text != asset_) record(found.path, true);
+  return found;
+}
+
+void AssetFiles::record(const std::string& path, bool found) {
+  const auto [entry, is_new] = position_.try_emplace(path, files_.size());
+  if (is_new) files_.push_back({path, found});
+}
+
+bool AssetFiles::readable(const std::string& path) {
+  return !path.empty() && ::access(path.c_str(), R_OK) == 0;
+}
+
+std::vector<std::string> AssetFiles::missing_with_extension(std::string_view extension) const {
+  std::vector<std::string> missing;
+  for (const mesh::ReferencedFile& file : files_)
+    if (!file.found && file.path.ends_with(extension)) missing.push_back(file.path);
+  return missing;
+}
+
+}  // namespace scene_analyzer::import

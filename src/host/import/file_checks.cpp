@@ -1,0 +1,108 @@
+#include "import/file_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+
+#include "base/error.h"
+#include "import/mapped_file.h"
+#include "import/ply_check.h"
+
+namespace scene_analyzer::import {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+std::string extension_of(const std::string& asset) {
+  return lower(std::filesystem::path(asset).extension().string());
+}
+
+struct Imposter {
+  std::string_view start;
+  std::string_view what;
+};
+constexpr std::array kImposters = {
+    Imposter{"\x89PNG\r\n"sv, "a PNG image"},
+    Imposter{"\xFF\xD8\xFF"sv, "a JPEG image"},
+    Imposter{"GIF8"sv, "a GIF image"},
+    Imposter{"%PDF"sv, "a PDF document"},
+    Imposter{"\x1F\x8B"sv, "gzip-compressed data; unpack it first"},
+    Imposter{"Rar!"sv, "a RAR archive; unpack it first"},
+    Imposter{"7z\xBC\xAF"sv, "a 7z archive; unpack it first"},
+};
+constexpr std::array kTextFormats = {".obj"sv, ".ply"sv, ".off"sv, ".stl"sv, ".gltf"sv};
+
+void check_start(std::string_view contents, const std::string& extension) {
+  if (contents.starts_with("version https://git-lfs.github.com/spec/"))
+    throw InputError("is a Git LFS pointer, not the asset itself; fetch it with `git lfs pull`");
+  const std::string start = lower(contents.substr(0, 256));
+  const std::size_t text = start.find_first_not_of(" \t\r\n");
+  const std::string_view markup = text == std::string::npos ? ""sv : std::string_view(start).substr(text);
+  if (markup.starts_with("<!doctype html") || markup.starts_with("<html"))
+    throw InputError("holds a web page, not an asset; the download has probably failed");
+  // Blender compresses its own files with gzip.
+  for (const Imposter& imposter : kImposters)
+    if (contents.starts_with(imposter.start) && extension != ".blend")
+      throw InputError("holds " + std::string(imposter.what));
+  if (contents.starts_with("glTF\2"sv) && extension != ".glb" && extension != ".gltf")
+    throw InputError("holds binary glTF; rename it to .glb");
+  const bool utf16 = contents.starts_with("\xFF\xFE"sv) || contents.starts_with("\xFE\xFF"sv);
+  if (utf16 && std::find(kTextFormats.begin(), kTextFormats.end(), extension) != kTextFormats.end())
+    throw InputError("is UTF-16 text, which this format does not allow; convert it to UTF-8");
+}
+
+void check_stl(std::string_view contents, std::vector<std::string>& warnings) {
+  constexpr std::uint64_t kHeader = 84, kTriangle = 50;
+  std::uint32_t triangles = 0;
+  if (contents.size() >= kHeader)
+    std::memcpy(&triangles, contents.data() + kHeader - sizeof triangles, sizeof triangles);
+  const std::uint64_t expected = kHeader + kTriangle * triangles;
+  const bool is_binary = contents.size() >= kHeader && contents.size() == expected;
+  const std::size_t first = contents.find_first_not_of(" \t\r\n");
+  if (is_binary && triangles > 0) return;
+  if (is_binary) throw InputError("is a binary STL of 0 triangles");
+  if (first == std::string_view::npos || !lower(contents.substr(first, 5)).starts_with("solid"))
+    throw InputError("is no whole STL: binary STL of " + std::to_string(triangles) + " triangles takes " +
+                     std::to_string(expected) + " bytes and the file has " + std::to_string(contents.size()) +
+                     "; text does not start with \"solid\"");
+  if (lower(contents.substr(contents.size() - std::min<std::size_t>(contents.size(), 512)))
+          .find("endsolid") == std::string::npos)
+    warnings.push_back("the text does not end with \"endsolid\": the file may be cut off");
+}
+
+}  // namespace
+
+void check_file(const std::string& asset, std::vector<std::string>& warnings) {
+  const MappedFile file("./" + asset);
+  const std::string extension = extension_of(asset);
+  check_start(file.text(), extension);
+  if (extension == ".stl") check_stl(file.text(), warnings);
+  if (extension == ".ply") check_ply(file.text());
+}
+
+void require_content(const std::string& asset, std::size_t meshes) {
+  if (extension_of(asset) == ".3mf" && meshes == 0)
+    throw InputError("holds no object that Assimp can read; 3MF's production extension is not supported");
+}
+
+std::string explain_failure(const std::string& assimp_message, const std::string& asset) {
+  if (assimp_message.starts_with("No suitable reader found")) {
+    if (extension_of(asset).empty()) return "has no extension and its contents are in no known format";
+    return "its contents are not in the format that \"" + extension_of(asset) + "\" stands for";
+  }
+  if (assimp_message.empty()) return "Assimp cannot read it and gives no reason";
+  return "Assimp cannot read it: " + assimp_message;
+}
+
+}  // namespace scene_analyzer::import

@@ -1,0 +1,102 @@
+#include "import/import.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cerrno>
+#include <system_error>
+
+#include "base/error.h"
+#include "import/scene_wire.h"
+#include "import/text.h"
+#include "import/wire.h"
+#include "import/worker_process.h"
+
+namespace scene_analyzer::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+// Assimp's peak was at most 20 bytes per byte of any text format tried; archives may hold much more than
+// their size.
+constexpr std::uint64_t kBaseMemory = 4 * kGiB;
+constexpr std::uint64_t kMemoryPerByte = 32;
+
+std::uint64_t check_is_readable_file(const fs::path& asset) {
+  std::error_code error;
+  const fs::file_status status = fs::status(asset, error);
+  if (status.type() == fs::file_type::not_found) throw InputError("no such file");
+  if (error) throw InputError("cannot be read: " + error.message());
+  if (fs::is_directory(status)) throw InputError("is a folder; name an asset file in it");
+  if (!fs::is_regular_file(status)) throw InputError("is not a regular file");
+  const int descriptor = ::open(asset.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) throw InputError("cannot be read: " + std::generic_category().message(errno));
+  ::close(descriptor);
+  const std::uint64_t bytes = fs::file_size(asset, error);
+  if (error) throw InputError("cannot be read: " + error.message());
+  if (bytes == 0) throw InputError("is empty");
+  return bytes;
+}
+
+// Files without an extension are recognised by their contents.
+void check_extension(const fs::path& asset) {
+  const std::string extension = asset.extension().string();
+  if (extension.empty() || Assimp::Importer().IsExtensionSupported(extension)) return;
+  throw InputError(
+      "unsupported format \"" + clean_text(extension, 32) +
+      "\"; supported are glTF, GLB, OBJ, PLY, STL, FBX, COLLADA (.dae), 3DS, 3MF, OFF, X, Blend and other "
+      "formats of Assimp");
+}
+
+// The bulk of a .gltf lies beside it.
+std::uint64_t bytes_beside(const fs::path& asset) {
+  if (asset.extension() != ".gltf") return 0;
+  std::uint64_t bytes = 0;
+  std::error_code ignored;  // an unreadable folder only makes the limit tighter
+  const fs::path folder = asset.has_parent_path() ? asset.parent_path() : ".";
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
+    if (entry->path().extension() == ".bin" && entry->is_regular_file(ignored))
+      bytes += entry->file_size(ignored);
+  return bytes;
+}
+
+Limits derive(Limits limits, const fs::path& asset, std::uint64_t asset_bytes) {
+  if (limits.memory_bytes != 0) return limits;
+  const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t wanted = kBaseMemory + kMemoryPerByte * (asset_bytes + bytes_beside(asset));
+  limits.memory_bytes = std::min(wanted, std::max(machine, kGiB));
+  return limits;
+}
+
+mesh::Scene import_readable(const fs::path& asset, const Limits& limits) {
+  const Answer answer = run_worker(asset, limits);
+  wire::Reader reader(answer.memory);
+  if (reader.status() != wire::Status::kScene) throw InputError(clean_text(reader.string(), 2048));
+  mesh::Scene scene = read_scene(reader);
+  scene.asset = asset.string();
+  scene.storage = answer.owner;
+  return scene;
+}
+
+}  // namespace
+
+mesh::Scene import_asset(const fs::path& asset, const Limits& limits) {
+  const std::string name = clean_text(asset.string(), 4096);
+  try {
+    const std::uint64_t bytes = check_is_readable_file(asset);
+    check_extension(asset);
+    return import_readable(asset, derive(limits, asset, bytes));
+  } catch (const InputError& error) {
+    throw InputError(name + ": " + error.what());
+  } catch (const WorkerFailure& error) {
+    throw InputError(name + ": " + error.what());
+  } catch (const wire::Malformed& error) {
+    throw InputError(name + ": the importer gave no usable answer: " + error.what());
+  }
+}
+
+}  // namespace scene_analyzer::import

@@ -1,0 +1,137 @@
+// The worker's side: give up rights, check, import on a deep stack, write the answer, vanish.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <assimp/Importer.hpp>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "base/error.h"
+#include "import/asset_files.h"
+#include "import/asset_io.h"
+#include "import/file_checks.h"
+#include "import/gltf_check.h"
+#include "import/import.h"
+#include "import/sandbox.h"
+#include "import/scene_writer.h"
+#include "import/wire.h"
+#include "import/worker_process.h"
+
+namespace scene_analyzer::import {
+namespace {
+
+// Assimp walks node trees and JSON by recursion; files with thousands of levels are real.
+constexpr std::size_t kStackBytes = std::size_t{256} << 20;
+
+// Called when memory runs out. What follows may be a clean std::bad_alloc or a crash in a library that did
+// not expect it; the parent knows the cause either way.
+void report_out_of_memory() {
+  wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
+  throw std::bad_alloc();
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+  return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+// Assimp stores what its importers threw; running out of memory must not read like a reason.
+void throw_if_out_of_memory(const Assimp::Importer& importer) {
+  if (!importer.GetException()) return;
+  try {
+    std::rethrow_exception(importer.GetException());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {  // NOLINT(bugprone-empty-catch): every other kind is told by GetErrorString()
+  }
+}
+
+void import_into(AssetFiles& files, wire::Writer& writer) {
+  std::vector<std::string> warnings;
+  check_file(files.asset_name(), warnings);
+  const ExpectedGltf expected = check_gltf(files, warnings);
+  Assimp::Importer importer;
+  importer.SetIOHandler(new AssetIo(files));  // which the importer owns
+  if (importer.ReadFile("./" + files.asset_name(), aiProcess_Triangulate) == nullptr) {
+    throw_if_out_of_memory(importer);
+    throw InputError(explain_failure(importer.GetErrorString(), files.asset_name()));
+  }
+  aiScene* const scene = importer.GetOrphanedScene();  // freed by the end of the process
+  require_expected(expected, *scene);
+  require_content(files.asset_name(), scene->mNumMeshes);
+  write_scene(*scene, expected.materials, files, std::move(warnings), writer);
+}
+
+void refuse(const std::string& reason) {
+  wire::Writer writer(kAnswerDescriptor);
+  writer.string(one_line(reason));
+  writer.finish(wire::Status::kRefused);
+}
+
+struct Job {
+  std::filesystem::path asset;
+};
+
+void run(const Job& job) {
+  try {
+    AssetFiles files(job.asset.filename().string());
+    wire::Writer writer(kAnswerDescriptor);
+    import_into(files, writer);
+  } catch (const std::bad_alloc&) {
+    wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+}
+
+void run_on_deep_stack(Job& job) {
+  pthread_attr_t attributes;
+  pthread_t thread;
+  const auto check = [](int error) {
+    if (error != 0) throw std::system_error(error, std::generic_category(), "starting the importer");
+  };
+  check(pthread_attr_init(&attributes));
+  check(pthread_attr_setstacksize(&attributes, kStackBytes));
+  const auto start = [](void* argument) -> void* {
+    run(*static_cast<Job*>(argument));
+    return nullptr;
+  };
+  check(pthread_create(&thread, &attributes, start, &job));
+  check(pthread_join(thread, nullptr));
+}
+
+std::uint64_t number(const char* text) {
+  std::uint64_t value = 0;
+  const char* const end = text + std::strlen(text);
+  if (std::from_chars(text, end, value).ptr != end) throw std::invalid_argument(text);
+  return value;
+}
+
+}  // namespace
+
+int worker_main(int argc, char** argv) {
+  if (argc != 6) return 2;  // started by hand: it has no one to answer to
+  try {
+    Job job{argv[2]};
+    limit_this_process(number(argv[3]), number(argv[4]), static_cast<pid_t>(number(argv[5])));
+    if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());
+    allow_reading_only(".", job.asset.filename());
+    std::set_new_handler(report_out_of_memory);
+    run_on_deep_stack(job);
+  } catch (const std::exception& error) {
+    refuse(std::string("the importer could not be set up: ") + error.what());
+  }
+  // No destructors: freeing millions of faces one by one takes as long as reading them.
+  std::_Exit(0);
+}
+
+}  // namespace scene_analyzer::import
