@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -183,10 +183,10 @@ TEST(Schema, RefusesWhatIsNotTheReport) {
 TEST(Json, OfAHundredThousandMeshesTakesAboutASecond) {
   const Fixture fixture = many_instances(100'000);
   const SceneReport report = fixture.report();
-  const auto timed = [&](auto&& write) {
-    const auto start = std::chrono::steady_clock::now();
+  const auto timed = [&](auto&& write) {  // processor time: other programs may keep the machine busy
+    const std::clock_t start = std::clock();
     EXPECT_GT(write().size(), 100'000u);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   };
   const double json_seconds = timed([&] { return json(report); });
   const double csv_seconds = timed([&] { return csv(report); });
