@@ -1,4 +1,5 @@
-// array_inl.h — Bodies of gpu::Array, which need the whole Device. Include gpu/device.h or gpu/buffer.h, not this.
+// array_inl.h — Bodies of gpu::Array, which need the whole Device. Include gpu/device.h or gpu/buffer.h, not
+// this.
 #pragma once
 
 #include "gpu/device.h"

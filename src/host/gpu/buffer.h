@@ -54,8 +54,8 @@ class Array {
   std::uint64_t count_ = 0;
 };
 
-// What a dispatch binds: a buffer, whole or in part. Offsets are multiples of the device's minStorageBufferOffsetAlignment
-// (at most 256).
+// What a dispatch binds: a buffer, whole or in part. Offsets are multiples of the device's
+// minStorageBufferOffsetAlignment (at most 256).
 struct BufferRange {
   const Buffer* buffer = nullptr;
   std::uint64_t offset_bytes = 0;
@@ -70,4 +70,4 @@ struct BufferRange {
 
 }  // namespace scene_analyzer::gpu
 
-#include "gpu/array_inl.h"
+#include "gpu/device.h"  // last: Array's bodies need both

@@ -1,7 +1,8 @@
 // device.h — One Vulkan device: chosen, created, and the maker of everything on it. Vulkan-free face.
 //
-// Required: Vulkan 1.3 (synchronization2, maintenance4), shaderFloat64, shaderInt64, scalarBlockLayout, VK_KHR_push_descriptor, a compute queue.
-// Preferred order: discrete, integrated, virtual, CPU; within a type the order of the driver.
+// Required: Vulkan 1.3 (synchronization2, maintenance4), shaderFloat64, shaderInt64, scalarBlockLayout,
+// VK_KHR_push_descriptor, a compute queue. Preferred order: discrete, integrated, virtual, CPU; within a type
+// the order of the driver.
 //
 // Thread rule: a Device and what it made belong to one thread at a time.
 #pragma once
@@ -23,27 +24,29 @@ enum class DeviceType { kDiscrete, kIntegrated, kVirtual, kCpu, kOther };
 const char* to_string(DeviceType type);  // "discrete", "integrated", "virtual", "cpu", "other"
 
 struct DeviceInfo {
-  std::uint32_t index = 0;                    // position in the driver's list, what --device INDEX means
-  std::string name;                           // "llvmpipe (LLVM 15.0.6, 256 bits)"
-  std::string driver;                         // name and version of the driver
-  std::string api_version;                    // "1.3.230"
+  std::uint32_t index = 0;  // position in the driver's list, what --device INDEX means
+  std::string name;         // "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string driver;       // name and version of the driver
+  std::string api_version;  // "1.3.230"
   DeviceType type = DeviceType::kOther;
-  std::uint64_t max_storage_buffer_bytes = 0; // maxStorageBufferRange
-  std::uint64_t max_allocation_bytes = 0;     // maxMemoryAllocationSize
-  std::uint64_t memory_bytes = 0;             // size of the heap that buffers come from
-  std::uint64_t free_memory_bytes = 0;        // VK_EXT_memory_budget (budget - usage) or the operating system's free memory
-                                              // on CPU devices; else the heap's size
+  std::uint64_t max_storage_buffer_bytes = 0;  // maxStorageBufferRange
+  std::uint64_t max_allocation_bytes = 0;      // maxMemoryAllocationSize
+  std::uint64_t memory_bytes = 0;              // size of the heap that buffers come from
+  std::uint64_t free_memory_bytes = 0;  // VK_EXT_memory_budget (budget - usage) or the operating system's
+                                        // free memory on CPU devices; else the heap's size
   std::uint32_t subgroup_size = 0;
-  std::vector<std::string> refusals;          // why it cannot be used, one reason each; empty: usable
+  std::vector<std::string> refusals;  // why it cannot be used, one reason each; empty: usable
 };
 
-// Every Vulkan device of this machine, usable or not. Throws NoDevice when there is no Vulkan loader or driver at all.
+// Every Vulkan device of this machine, usable or not. Throws NoDevice when there is no Vulkan loader or
+// driver at all.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-  std::string selector;                              // "", an index, or a part of the name (case-insensitive)
-  bool validation = false;                           // validation layer with synchronisation validation; throws when missing
-  std::optional<std::filesystem::path> cache_folder; // where the pipeline cache file is kept; absent: nowhere
+  std::string selector;     // "", an index, or a part of the name (case-insensitive)
+  bool validation = false;  // validation layer with synchronisation validation; throws when missing
+  // Where the pipeline cache file is kept; absent: nowhere.
+  std::optional<std::filesystem::path> cache_folder;
 };
 
 class Device {
@@ -55,8 +58,8 @@ class Device {
 
   const DeviceInfo& info() const;
 
-  // `bytes` are rounded up to 16; never zero. Contents are undefined. Throws OutOfMemory naming `name`, need and limit
-  // (the smaller of maxStorageBufferRange, maxMemoryAllocationSize and what the driver gives).
+  // `bytes` are rounded up to 16; never zero. Contents are undefined. Throws OutOfMemory naming `name`, need
+  // and limit (the smaller of maxStorageBufferRange, maxMemoryAllocationSize and what the driver gives).
   Buffer make_buffer(const std::string& name, std::uint64_t bytes);
 
   // `words` is SPIR-V; specialisation constants 0, 1, ... get the given values.
@@ -64,7 +67,8 @@ class Device {
   Kernel make_kernel(const std::string& name, std::span<const std::uint32_t> words,
                      std::span<const std::uint32_t> specialization = {});
 
-  // Synchronous copies; host-visible device memory is written directly, other memory through a bounded staging buffer.
+  // Synchronous copies; host-visible device memory is written directly, other memory through a bounded
+  // staging buffer.
   void upload(const Buffer& buffer, std::uint64_t offset_bytes, std::span<const std::byte> data);
   void download(const Buffer& buffer, std::uint64_t offset_bytes, std::span<std::byte> data);
 
@@ -72,7 +76,8 @@ class Device {
   std::uint64_t peak_buffer_bytes() const;  // largest value since reset_peak()
   void reset_peak();
 
-  // Warnings and errors of the validation layer so far; the list of a silent run is empty. Cleared by the call.
+  // Warnings and errors of the validation layer so far; the list of a silent run is empty. Cleared by the
+  // call.
   std::vector<std::string> take_validation_messages();
 
   struct Native;  // gpu/native.h: the one marked door for FFT, raster and window
@@ -83,3 +88,5 @@ class Device {
 };
 
 }  // namespace scene_analyzer::gpu
+
+#include "gpu/array_inl.h"

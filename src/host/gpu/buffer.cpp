@@ -1,0 +1,108 @@
+#include "gpu/buffer.h"
+
+#include <algorithm>
+
+#include "gpu/error.h"
+#include "gpu/host_memory.h"
+#include "gpu/native.h"
+#include "gpu/vulkan_errors.h"
+
+namespace scene_analyzer::gpu {
+namespace {
+
+constexpr std::uint64_t kGranularity = 16;
+// Smaller needs are not worth a look at the system's free memory.
+constexpr std::uint64_t kLookAtFreeMemory = std::uint64_t{1} << 20;
+
+[[noreturn]] void refuse(const std::string& name, std::uint64_t need, const std::string& limit) {
+  throw OutOfMemory("buffer '" + name + "' needs " + std::to_string(need) + " bytes, but " + limit);
+}
+
+void check_limits(const DeviceInfo& info, const std::string& name, std::uint64_t bytes) {
+  if (bytes > info.max_storage_buffer_bytes)
+    refuse(name, bytes,
+           "the device's largest storage buffer has " + std::to_string(info.max_storage_buffer_bytes) +
+               " bytes (maxStorageBufferRange)");
+  if (bytes > info.max_allocation_bytes)
+    refuse(name, bytes,
+           "the device's largest allocation has " + std::to_string(info.max_allocation_bytes) +
+               " bytes (maxMemoryAllocationSize)");
+  // A CPU device's driver grants what the kernel would later kill this process for.
+  if (info.type == DeviceType::kCpu && bytes >= kLookAtFreeMemory)
+    if (const auto free = free_host_memory_bytes(); free && bytes > *free)
+      refuse(name, bytes, "this machine has " + std::to_string(*free) + " bytes of memory left");
+}
+
+void fail_when_told(Faults& faults) {
+  if (!faults.allocations_until_failure) return;
+  if (*faults.allocations_until_failure == 0) {
+    faults.allocations_until_failure.reset();
+    throw vk::OutOfDeviceMemoryError("asked for by a test");
+  }
+  --*faults.allocations_until_failure;
+}
+
+void allocate(Device::Native& native, Buffer::Impl& impl, std::uint32_t type, std::uint64_t bytes) {
+  fail_when_told(native.faults);
+  impl.memory = vk::raii::DeviceMemory(native.device, {.allocationSize = bytes, .memoryTypeIndex = type});
+  impl.buffer.bindMemory(*impl.memory, 0);
+}
+
+}  // namespace
+
+Buffer::Buffer() = default;
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+
+const std::string& Buffer::name() const {
+  static const std::string kEmpty;
+  return impl_ ? impl_->name : kEmpty;
+}
+std::uint64_t Buffer::bytes() const {
+  return impl_ ? impl_->bytes : 0;
+}
+
+std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std::string& name,
+                                               std::uint64_t bytes, BufferKind kind) {
+  auto impl = std::make_unique<Buffer::Impl>(native, name);
+  vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
+  if (kind == BufferKind::kStorage) usage |= vk::BufferUsageFlagBits::eStorageBuffer;
+  try {
+    impl->buffer = vk::raii::Buffer(native.device, {.size = bytes, .usage = usage});
+    const vk::MemoryRequirements need = impl->buffer.getMemoryRequirements();
+    const auto type = kind == BufferKind::kStorage ? native.memory_types.for_buffers(need.memoryTypeBits)
+                                                   : native.memory_types.for_staging(need.memoryTypeBits);
+    if (!type) throw Error("the device has no memory type for buffer '" + name + "'");
+    allocate(native, *impl, *type, need.size);
+    if (kind == BufferKind::kStaging || native.memory_types.is_mapped(*type))
+      impl->mapped = static_cast<std::byte*>(impl->memory.mapMemory(0, VK_WHOLE_SIZE));
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    refuse(name, bytes,
+           "the driver refused it with " + std::to_string(native.buffer_bytes) +
+               " bytes in use by other buffers");
+  } catch (const vk::OutOfHostMemoryError&) {
+    refuse(name, bytes, "the driver ran out of host memory");
+  } catch (const vk::SystemError&) {
+    rethrow_as_gpu_error("making buffer '" + name + "'");
+  }
+  native.set_name(vk::ObjectType::eBuffer,
+                  reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*impl->buffer)), name);
+  if (kind == BufferKind::kStaging) return impl;
+  impl->bytes = bytes;
+  native.buffer_bytes += bytes;
+  native.peak_buffer_bytes = std::max(native.peak_buffer_bytes, native.buffer_bytes);
+  return impl;
+}
+
+Buffer Device::make_buffer(const std::string& name, std::uint64_t bytes) {
+  check_limits(native_->info, name, bytes);  // before rounding, which could overflow
+  const std::uint64_t rounded =
+      (std::max<std::uint64_t>(bytes, 1) + kGranularity - 1) / kGranularity * kGranularity;
+  check_limits(native_->info, name, rounded);
+  Buffer buffer;
+  buffer.impl_ = make_buffer_impl(*native_, name, rounded, BufferKind::kStorage);
+  return buffer;
+}
+
+}  // namespace scene_analyzer::gpu

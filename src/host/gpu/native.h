@@ -1,0 +1,110 @@
+// native.h — The one marked door to Vulkan: the handles behind Device, Buffer and Kernel.
+//
+// Included by gpu/*.cpp and by the three rooms that must talk Vulkan themselves (FFT, raster, window), and
+// never by a header of another room: vulkan_raii.hpp costs four seconds per translation unit.
+#pragma once
+
+#define VULKAN_HPP_NO_CONSTRUCTORS
+#include <array>
+#include <memory>
+#include <optional>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/device.h"
+#include "gpu/faults.h"
+#include "gpu/instance.h"
+#include "gpu/memory.h"
+#include "gpu/pipeline_cache.h"
+#include "gpu/recorder.h"
+#include "gpu/stopwatch.h"
+
+namespace scene_analyzer::gpu {
+
+struct Buffer::Impl {
+  Device::Native& device;
+  std::string name;
+  std::uint64_t bytes = 0;  // counted in the device's buffer_bytes
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Buffer buffer{nullptr};
+  std::byte* mapped =
+      nullptr;  // host address of the whole buffer, coherent; null where the host cannot reach it
+
+  Impl(Device::Native& owner, std::string buffer_name) : device(owner), name(std::move(buffer_name)) {}
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+};
+
+// Members are destroyed from the last to the first, so each stands below what it needs.
+struct Device::Native {
+  explicit Native(Instance made) : instance(std::move(made)) {}
+
+  Instance instance;
+  vk::raii::PhysicalDevice physical_device{nullptr};
+  DeviceInfo info;
+  vk::PhysicalDeviceLimits limits;
+  MemoryTypes memory_types;
+  std::uint32_t queue_family = 0;  // compute, and graphics too where one family has both
+  bool queue_has_graphics = false;
+  std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
+  bool validation = false;
+  bool lost = false;               // every later submission throws DeviceLost
+  Faults faults;                   // tests only
+  std::uint64_t buffer_bytes = 0;  // staging not counted
+  std::uint64_t peak_buffer_bytes = 0;
+
+  vk::raii::Device device{nullptr};
+  vk::raii::Queue queue{nullptr};
+  vk::raii::CommandPool command_pool{nullptr};  // command buffers can be reset one by one
+  vk::raii::Fence fence{nullptr};               // one is enough: submissions are synchronous
+  PipelineCache pipeline_cache;
+  std::unique_ptr<Buffer::Impl> staging{};  // host-visible, made at the first copy that needs it
+
+  // The only way to the queue: submits the ended commands, waits in slices with a message when it takes long,
+  // and turns every result into an exception of the gpu room. `doing` goes into that message: "running 12
+  // dispatches".
+  void submit_and_wait(const vk::raii::CommandBuffer& commands, const std::string& doing);
+  vk::raii::CommandBuffer make_commands();
+  // Shown by the validation layer and by debuggers; does nothing without validation.
+  void set_name(vk::ObjectType type, std::uint64_t handle, const std::string& name) const;
+};
+
+inline Buffer::Impl::~Impl() {
+  device.buffer_bytes -= bytes;
+}
+
+struct Kernel::Impl {
+  std::string name;
+  std::uint32_t local_size = 0;
+  std::uint32_t buffer_count = 0;
+  std::uint32_t push_constant_bytes = 0;
+  vk::raii::DescriptorSetLayout set_layout{nullptr};
+  vk::raii::PipelineLayout layout{nullptr};
+  vk::raii::Pipeline pipeline{nullptr};
+};
+
+struct Recorder::Impl {
+  Device& device;
+  vk::raii::CommandBuffer commands;
+  std::optional<Stopwatch> stopwatch;  // with `profile`, where the queue has timestamps
+  std::vector<Recorder::Timing> timings;
+  std::uint32_t step_count = 0;  // dispatches, fills and copies recorded; 0: the recording has not begun
+
+  Impl(Device& owner, bool profile);
+  // Begins the recording where needed and inserts the barrier against everything before: commands recorded
+  // into the result (compute and transfer stages) need no barrier of their own before the first of them.
+  const vk::raii::CommandBuffer& next_step();
+};
+
+// Every step may read and write what any earlier compute or transfer command wrote, in this submission or
+// before.
+void record_barrier(const vk::raii::CommandBuffer& commands);
+// Makes everything written readable through mapped memory after the fence.
+void record_barrier_to_host(const vk::raii::CommandBuffer& commands);
+
+enum class BufferKind { kStorage, kStaging };
+// `bytes` as they are; throws OutOfMemory.
+std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std::string& name,
+                                               std::uint64_t bytes, BufferKind kind);
+
+}  // namespace scene_analyzer::gpu
