@@ -108,7 +108,11 @@ TEST_F(Store, FullDisk) {
 TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
   auto large = full_analysis();
   large.geometries.assign(5000, full_geometry());
+  const auto start = std::chrono::steady_clock::now();
+  store(folder / "first.analysis", large);
+  const std::chrono::duration<double> one_store = std::chrono::steady_clock::now() - start;
   std::mt19937 random(7);
+  std::uniform_real_distribution<double> stores_until_kill(0, 4);
   int present = 0;
   for (int round = 0; round < 30; ++round) {
     const fs::path file = folder / (std::to_string(round) + ".analysis");
@@ -120,7 +124,7 @@ TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
         store(file, large);
       }
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(500 + random() % 30000));
+    std::this_thread::sleep_for(one_store * stores_until_kill(random));
     ASSERT_EQ(::kill(child, SIGKILL), 0);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
