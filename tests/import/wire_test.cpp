@@ -1,0 +1,168 @@
+// The parent must survive whatever a taken-over worker writes.
+#include "import/wire.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <random>
+
+#include "base/error.h"
+#include "import/scene_wire.h"
+
+namespace scene_analyzer::import {
+namespace {
+
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("test", 0)) {
+    if (descriptor_ < 0) throw std::runtime_error("memfd_create");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  int descriptor() const { return descriptor_; }
+  std::vector<std::byte> contents() const {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(lseek(descriptor_, 0, SEEK_END)));
+    if (pread(descriptor_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+      throw std::runtime_error("pread");
+    return bytes;
+  }
+
+ private:
+  int descriptor_;
+};
+
+template <typename T>
+void write_array(wire::Writer& writer, const std::vector<T>& values) {
+  writer.begin_array();
+  writer.append(std::span<const T>(values));
+  writer.end_array(sizeof(T));
+}
+
+// One triangle, one material with colour, one instance; `last_index` is its last corner.
+std::vector<std::byte> small_scene(std::uint32_t last_index = 2) {
+  const MemoryFile memory;
+  wire::Writer writer(memory.descriptor());
+  writer.string("Test");
+  writer.number(std::uint8_t{1});
+  writer.number(0.01);
+  writer.number(std::uint8_t{1});
+  writer.string("+Z");
+  writer.number(std::uint64_t{1});
+  writer.string("a\x1b.obj");
+  writer.number(std::uint8_t{1});
+  writer.number(std::uint64_t{1});
+  writer.string("careful");
+  writer.number(std::uint64_t{0});
+  writer.number(std::uint64_t{1});
+  writer.string("red");
+  writer.number(std::uint8_t{1});
+  for (const float channel : {1.0f, 0.0f, 0.0f, 1.0f}) writer.number(channel);
+  writer.number(std::uint8_t{0});
+  writer.number(std::uint32_t{0});
+  writer.number(std::uint64_t{1});
+  writer.string("triangle");
+  write_array<float>(writer, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  write_array<std::uint32_t>(writer, {0, 1, last_index});
+  write_array<float>(writer, {});
+  writer.number(std::uint32_t{0});
+  writer.number(std::uint64_t{7});
+  writer.number(std::uint64_t{1});
+  writer.number(std::uint32_t{0});
+  writer.string("node");
+  for (const double element : mesh::kIdentity4) writer.number(element);
+  writer.finish(wire::Status::kScene);
+  return memory.contents();
+}
+
+mesh::Scene read(std::span<const std::byte> memory) {
+  wire::Reader reader(memory);
+  if (reader.status() != wire::Status::kScene) throw wire::Malformed("another status");
+  return read_scene(reader);
+}
+
+TEST(Wire, RoundTrip) {
+  const std::vector<std::byte> memory = small_scene();
+  const mesh::Scene scene = read(memory);
+  EXPECT_EQ(scene.format, "Test");
+  EXPECT_EQ(scene.unit_scale, 0.01);
+  EXPECT_EQ(scene.up_axis, "+Z");
+  EXPECT_EQ(scene.files.at(0).path, "a.obj");
+  EXPECT_EQ(scene.warnings.at(0), "careful");
+  EXPECT_EQ(scene.meshes.at(0).name, "triangle");
+  EXPECT_EQ(scene.meshes.at(0).positions[7], 1.0f);
+  EXPECT_EQ(scene.meshes.at(0).indices[2], 2u);
+  EXPECT_TRUE(scene.meshes.at(0).texture_coordinates.empty());
+  EXPECT_EQ(scene.meshes.at(0).skipped_primitives, 7u);
+  EXPECT_EQ(scene.instances.at(0).world, mesh::kIdentity4);
+}
+
+TEST(Wire, ArraysAreUsedWhereTheyLie) {
+  const std::vector<std::byte> memory = small_scene();
+  const mesh::Scene scene = read(memory);
+  const auto* position = reinterpret_cast<const std::byte*>(scene.meshes.at(0).positions.data());
+  EXPECT_GE(position, memory.data());
+  EXPECT_LT(position, memory.data() + memory.size());
+  EXPECT_EQ((position - memory.data()) % 64, 0);
+}
+
+TEST(Wire, AnIndexBeyondTheVerticesNamesMeshAndTriangle) {
+  const std::vector<std::byte> memory = small_scene(3);
+  try {
+    read(memory);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "triangle 0 of mesh 0 \"triangle\" asks for vertex 3 of 3");
+  }
+}
+
+TEST(Wire, EveryTruncationIsRefused) {
+  const std::vector<std::byte> memory = small_scene();
+  for (std::size_t size = 0; size < memory.size(); ++size)
+    EXPECT_THROW(read(std::span(memory).first(size)), wire::Malformed) << size;
+}
+
+TEST(Wire, HeaderAloneTellsThatMemoryRanOut) {
+  const MemoryFile memory;
+  ASSERT_TRUE(wire::write_header_only(memory.descriptor(), wire::Status::kOutOfMemory));
+  EXPECT_EQ(wire::Reader(memory.contents()).status(), wire::Status::kOutOfMemory);
+}
+
+// Reads everything that a scene gives access to, so that a sanitizer sees a span that leads out.
+std::uint64_t touch(const mesh::Scene& scene) {
+  std::uint64_t sum = scene.files.size() + scene.warnings.size();
+  for (const mesh::TriangleMesh& mesh : scene.meshes) {
+    for (const std::uint32_t index : mesh.indices) sum += mesh.positions[3 * std::size_t{index}] > 0;
+    for (const float value : mesh.texture_coordinates) sum += value > 0;
+  }
+  for (const mesh::Texture& texture : scene.textures)
+    for (const std::uint8_t byte : texture.encoded) sum += byte;
+  for (const mesh::Instance& instance : scene.instances)
+    sum += scene.meshes.at(instance.mesh).triangle_count();
+  return sum;
+}
+
+TEST(Wire, NoByteCanBreakTheReader) {
+  const std::vector<std::byte> original = small_scene();
+  std::mt19937 random(7);
+  std::size_t refused = 0, read_fine = 0;
+  for (int round = 0; round < 50000; ++round) {
+    std::vector<std::byte> memory = original;
+    for (unsigned changes = 1 + random() % 4; changes > 0; --changes)
+      memory[random() % memory.size()] = static_cast<std::byte>(random() % 3 == 0 ? 0xFF : random() % 256);
+    try {
+      touch(read(memory));
+      ++read_fine;
+    } catch (const wire::Malformed&) {
+      ++refused;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000u);
+  EXPECT_GT(read_fine, 1000u);
+}
+
+}  // namespace
+}  // namespace scene_analyzer::import
