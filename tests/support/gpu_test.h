@@ -1,8 +1,9 @@
 // gpu_test.h — Base of every test that runs on a device: one Device per process, and no silent validation
 // message.
 //
-// The validation layer is on unless SCENE_ANALYZER_VALIDATION=0 (sanitizer builds: the layer itself leaks).
-// SCENE_ANALYZER_TEST_DEVICE selects the device as --device does.
+// The validation layer is on unless SCENE_ANALYZER_VALIDATION=0; in builds with AddressSanitizer it is off
+// unless SCENE_ANALYZER_VALIDATION=1, because the layer itself leaks. SCENE_ANALYZER_TEST_DEVICE selects the
+// device as --device does.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -21,10 +22,16 @@ inline std::string environment(const char* name, const char* otherwise) {
   return value == nullptr ? otherwise : value;
 }
 
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr const char* kValidationByDefault = "0";
+#else
+inline constexpr const char* kValidationByDefault = "1";
+#endif
+
 inline gpu::DeviceOptions device_options() {
   gpu::DeviceOptions options;
   options.selector = environment("SCENE_ANALYZER_TEST_DEVICE", "");
-  options.validation = environment("SCENE_ANALYZER_VALIDATION", "1") != "0";
+  options.validation = environment("SCENE_ANALYZER_VALIDATION", kValidationByDefault) != "0";
   return options;
 }
 

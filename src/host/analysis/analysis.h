@@ -18,10 +18,10 @@ namespace scene_analyzer::analysis {
 
 // What changes stored results. `steps` concerns rendering time only.
 struct Parameters {
-  double alpha_degrees = 0;      // planar groups: largest angle between neighbours' normals, [0, 180]
-  std::uint32_t dim = 20000;     // co-occurrence: largest number of area classes, >= 2
-  double weld_tolerance = 0;     // local units, >= 0
-  std::uint32_t steps = 8;       // rendering time: rotations per axis, >= 1
+  double alpha_degrees = 0;   // planar groups: largest angle between neighbours' normals, [0, 180]
+  std::uint32_t dim = 20000;  // co-occurrence: largest number of area classes, >= 2
+  double weld_tolerance = 0;  // local units, >= 0
+  std::uint32_t steps = 8;    // rendering time: rotations per axis, >= 1
   bool operator==(const Parameters&) const = default;
 };
 
@@ -34,38 +34,38 @@ struct Bounds {
 // One geometry: a mesh of the asset in its local coordinates, or, under nodes whose linear part is not a
 // similarity, the mesh transformed by that linear part.
 struct GeometryAnalysis {
-  std::uint32_t mesh = 0;                          // index in the asset
-  mesh::Matrix3 linear = mesh::kIdentity3;         // applied before measuring; identity for similarities
-  std::uint64_t source_triangles = 0;              // = triangles + degenerate_triangles
+  std::uint32_t mesh = 0;                   // index in the asset
+  mesh::Matrix3 linear = mesh::kIdentity3;  // applied before measuring; identity for similarities
+  std::uint64_t source_triangles = 0;       // = triangles + degenerate_triangles
   std::uint64_t degenerate_triangles = 0;
-  std::uint64_t triangles = 0;                     // n of the specification
-  double surface_area = 0;                         // S in analysed coordinates
-  std::optional<std::uint64_t> planar_groups;      // |PG|
+  std::uint64_t triangles = 0;                        // n of the specification
+  double surface_area = 0;                            // S in analysed coordinates
+  std::optional<std::uint64_t> planar_groups;         // |PG|
   std::optional<std::uint64_t> largest_planar_group;  // triangles
-  std::optional<std::uint64_t> components;         // connected through edges; isolated triangles count
-  std::optional<std::uint64_t> isolated_triangles; // triangles without a neighbour
-  std::optional<std::uint64_t> non_manifold_edges; // edges with more than two triangles
-  std::optional<std::uint64_t> boundary_edges;     // edges with one triangle
-  std::optional<std::uint64_t> area_classes;       // |S| after the DIM limit
+  std::optional<std::uint64_t> components;            // connected through edges; isolated triangles count
+  std::optional<std::uint64_t> isolated_triangles;    // triangles without a neighbour
+  std::optional<std::uint64_t> non_manifold_edges;    // edges with more than two triangles
+  std::optional<std::uint64_t> boundary_edges;        // edges with one triangle
+  std::optional<std::uint64_t> area_classes;          // |S| after the DIM limit
   std::optional<double> polygons_per_planar_group;
   std::optional<double> planar_group_variation;
   std::optional<double> cooccurrence_contrast;
-  std::optional<double> fourier_transform;         // not computed yet
-  std::string not_analysed;                        // why everything above is absent, with need and limit; or empty
+  std::optional<double> fourier_transform;  // not computed yet
+  std::string not_analysed;                 // why everything above is absent, with need and limit; or empty
 };
 
 struct InstanceAnalysis {
-  std::uint32_t geometry = 0;      // index into AssetAnalysis::geometries
+  std::uint32_t geometry = 0;  // index into AssetAnalysis::geometries
   std::string node;
-  std::string mesh;                // name of the mesh
-  double area_scale = 1;           // s^2 of the world matrix; 1 when the geometry's linear part holds it
+  std::string mesh;       // name of the mesh
+  double area_scale = 1;  // s^2 of the world matrix; 1 when the geometry's linear part holds it
   mesh::Matrix4 world = mesh::kIdentity4;
-  std::optional<Bounds> bounds;    // world, axis-aligned, of kept triangles; absent when there are none
+  std::optional<Bounds> bounds;  // world, axis-aligned, of kept triangles; absent when there are none
 };
 
 // A file that the results depend on.
 struct FileFingerprint {
-  std::string path;         // relative to the asset's folder; the asset itself is first
+  std::string path;  // relative to the asset's folder; the asset itself is first
   bool found = true;
   std::uint64_t size = 0;
   std::array<std::uint64_t, 2> hash{};  // XXH3 128 bits: low, high
@@ -79,12 +79,12 @@ struct DeviceStamp {
 };
 
 struct AssetAnalysis {
-  std::string asset;            // path as given
+  std::string asset;  // path as given
   std::string format;
   std::optional<double> unit_scale;
   std::optional<std::string> up_axis;
   Parameters parameters;
-  MetricSet computed;           // metrics whose stored part is present
+  MetricSet computed;  // metrics whose stored part is present
   DeviceStamp device;
   std::vector<GeometryAnalysis> geometries;
   std::vector<InstanceAnalysis> instances;  // depth-first node order

@@ -25,12 +25,14 @@ inline constexpr std::array<std::string_view, kMetricCount> kMetricKeys = {
     "polygons_per_planar_group", "planar_group_variation", "relative_density", "distance",
     "cooccurrence_contrast",     "fourier_transform",      "rendering_time"};
 // Column heads of narrow tables, the thesis' symbols.
-inline constexpr std::array<std::string_view, kMetricCount> kMetricSymbols = {"R_pppg", "R_pgv", "R_rd", "R_d",
-                                                                              "R_ccm",  "R_ft",  "R_rt"};
+inline constexpr std::array<std::string_view, kMetricCount> kMetricSymbols = {
+    "R_pppg", "R_pgv", "R_rd", "R_d", "R_ccm", "R_ft", "R_rt"};
 
 using MetricSet = std::bitset<kMetricCount>;
 
-constexpr std::size_t index_of(Metric metric) { return static_cast<std::size_t>(metric); }
+constexpr std::size_t index_of(Metric metric) {
+  return static_cast<std::size_t>(metric);
+}
 
 // The metric of a key, or nothing for an unknown key.
 inline std::optional<Metric> metric_of(std::string_view key) {

@@ -1,4 +1,5 @@
-// error.h — The two errors that users cause. Everything else is a std::exception and a defect or a failed machine.
+// error.h — The two errors that users cause. Everything else is a std::exception and a defect or a failed
+// machine.
 //
 // Thrown where the problem is found and caught only at a face (command line, batch row, service), which
 // turns it into its own language once. GPU errors are in gpu/error.h.

@@ -28,26 +28,27 @@ inline constexpr Matrix3 kIdentity3 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 struct TriangleMesh {
   std::string name;
-  std::span<const float> positions;           // x, y, z per vertex, as in the file (local coordinates)
-  std::span<const std::uint32_t> indices;     // three per triangle, each < vertex_count()
-  std::span<const float> texture_coordinates; // u, v per vertex; empty when the file has none
-  std::uint32_t material = 0;                 // index into Scene::materials
-  std::uint64_t skipped_primitives = 0;       // points and lines, which are not counted
+  std::span<const float> positions;            // x, y, z per vertex, as in the file (local coordinates)
+  std::span<const std::uint32_t> indices;      // three per triangle, each < vertex_count()
+  std::span<const float> texture_coordinates;  // u, v per vertex; empty when the file has none
+  std::uint32_t material = 0;                  // index into Scene::materials
+  std::uint64_t skipped_primitives = 0;        // points and lines, which are not counted
 
   std::uint64_t vertex_count() const { return positions.size() / 3; }
   std::uint64_t triangle_count() const { return indices.size() / 3; }
 };
 
 struct Instance {
-  std::uint32_t mesh = 0;         // index into Scene::meshes
-  std::string node;               // name of the node that holds it
-  Matrix4 world = kIdentity4;     // product of the node matrices, in double
+  std::uint32_t mesh = 0;      // index into Scene::meshes
+  std::string node;            // name of the node that holds it
+  Matrix4 world = kIdentity4;  // product of the node matrices, in double
 };
 
 struct Material {
   std::string name;
-  std::optional<std::array<float, 4>> base_color;  // linear RGBA in [0,1]; absent for Assimp's DefaultMaterial
-  std::optional<std::uint32_t> texture;            // index into Scene::textures
+  std::optional<std::array<float, 4>>
+      base_color;                        // linear RGBA in [0,1]; absent for Assimp's DefaultMaterial
+  std::optional<std::uint32_t> texture;  // index into Scene::textures
 };
 
 struct Texture {
@@ -68,10 +69,10 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<ReferencedFile> files;
-  std::vector<std::string> warnings;  // one sentence each, without the asset's name
-  std::string format;                 // importer's name of the format, for example "glTF2"
-  std::optional<double> unit_scale;   // metres per unit where the format says so
-  std::optional<std::string> up_axis; // "+Y", "-Z", ... where the format says so
+  std::vector<std::string> warnings;   // one sentence each, without the asset's name
+  std::string format;                  // importer's name of the format, for example "glTF2"
+  std::optional<double> unit_scale;    // metres per unit where the format says so
+  std::optional<std::string> up_axis;  // "+Y", "-Z", ... where the format says so
   std::shared_ptr<const void> storage;
 };
 

@@ -1,7 +1,8 @@
 // measure.h — The GPU recipe: scene -> analyses, every stage over whole batches of meshes.
 //
-// Geometries are deduplicated first (instances under similarity transforms share one), cut into batches by the device's memory and
-// buffer limits, and each batch runs through welding, areas, adjacency, planar groups, area classes and co-occurrence.
+// Geometries are deduplicated first (instances under similarity transforms share one), cut into batches by
+// the device's memory and buffer limits, and each batch runs through welding, areas, adjacency, planar
+// groups, area classes and co-occurrence.
 #pragma once
 
 #include <functional>
@@ -22,14 +23,16 @@ class Measurer {
   explicit Measurer(gpu::Device& device);  // creates kernels lazily, once
   ~Measurer();
 
-  // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds always). A geometry beyond
-  // a limit of the device gets `not_analysed` with need and limit. Throws gpu::DeviceLost, gpu::OutOfMemory.
-  // Cost: linear in triangles but for sorting areas; device memory under 200 bytes per triangle.
+  // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds
+  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit. Throws
+  // gpu::DeviceLost, gpu::OutOfMemory. Cost: linear in triangles but for sorting areas; device memory under
+  // 200 bytes per triangle.
   void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
                const Progress& progress, analysis::AssetAnalysis& analysis);
 
+  struct Stages;  // kernels of every stage
+
  private:
-  struct Stages;
   std::unique_ptr<Stages> stages_;
 };
 

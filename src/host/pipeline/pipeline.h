@@ -1,4 +1,5 @@
-// pipeline.h — Asset path -> analysis, through the analysis file when it is still true: the product's summary.
+// pipeline.h — Asset path -> analysis, through the analysis file when it is still true: the product's
+// summary.
 //
 //   analysis file valid?  -> done, neither import nor GPU is touched
 //   import (worker)       -> Scene
@@ -10,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,8 @@ struct Outcome {
   std::optional<analysis::AssetAnalysis> analysis;
   std::string error;                  // names the file and the reason
   bool from_file = false;             // the analysis file was valid
-  std::vector<std::string> messages;  // for the log, at warning level: analysis file stale, folder read-only, import warnings, meshes beyond a limit
+  std::vector<std::string> messages;  // for the log, at warning level: analysis file stale, folder read-only,
+                                      // import warnings, meshes beyond a limit
 };
 
 class Pipeline {
@@ -41,13 +44,27 @@ class Pipeline {
   Pipeline(Options options, std::function<gpu::Device&()> device);
   ~Pipeline();
 
-  // Never throws for a bad asset (that is an Outcome); throws gpu::NoDevice and gpu::DeviceLost, after which the rest makes no sense.
+  // Never throws for a bad asset (that is an Outcome); throws gpu::NoDevice and gpu::DeviceLost, after which
+  // the rest makes no sense.
   Outcome analyze(const std::filesystem::path& asset, const Progress& progress = {});
 
  private:
+  // Whether a valid analysis file holds all `wanted` metrics. If it holds others only, they are added to
+  // `wanted`.
+  bool reuse(const std::filesystem::path& asset, const Progress& report, analysis::MetricSet& wanted,
+             Outcome& outcome) const;
+  void compute(const std::filesystem::path& asset, const Progress& report, analysis::MetricSet wanted,
+               Outcome& outcome);
+  void measure(const mesh::Scene& scene, const Progress& report, analysis::MetricSet wanted,
+               analysis::AssetAnalysis& analysis);
+  void store(const std::filesystem::path& asset, const mesh::Scene& scene, bool unchanged,
+             const Progress& report, Outcome& outcome);
+
   Options options_;
   std::function<gpu::Device&()> device_;
   std::unique_ptr<Measurer> measurer_;
+  analysis::DeviceStamp device_stamp_;
+  std::set<std::filesystem::path> unwritable_folders_;  // already complained about
 };
 
 }  // namespace scene_analyzer::pipeline

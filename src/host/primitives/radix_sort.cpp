@@ -36,8 +36,9 @@ KeyedValues RadixSort::record(gpu::Recorder& recorder, KeyedValues input, std::u
                             .tiles = static_cast<std::uint32_t>(tiles)};
     recorder.run_groups(count_digits_, tiles, params, {shift < 32 ? input.low : input.high, offsets});
     scan_.record(recorder, offsets, tiles * kDigits);
-    recorder.run_groups(scatter_digits_, tiles, params,
-                        {offsets, input.low, input.high, input.values, output.low, output.high, output.values});
+    recorder.run_groups(
+        scatter_digits_, tiles, params,
+        {offsets, input.low, input.high, input.values, output.low, output.high, output.values});
     std::swap(input, output);
   }
   recorder.keep(std::move(output.low));

@@ -37,7 +37,8 @@ Scan::Scan(gpu::Device& device)
       sum_double_(device.make_kernel("sum_blocks_double", sum_blocks_double_spv)),
       scan_double_(device.make_kernel("scan_blocks_double", scan_blocks_double_spv)) {}
 
-void Scan::record(gpu::Recorder& recorder, const gpu::Array<std::uint32_t>& values, std::uint64_t count) const {
+void Scan::record(gpu::Recorder& recorder, const gpu::Array<std::uint32_t>& values,
+                  std::uint64_t count) const {
   record_level(recorder, sum_uint_, scan_uint_, values, count);
 }
 

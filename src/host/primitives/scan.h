@@ -1,7 +1,8 @@
-// scan.h — Exclusive prefix sums on the device, in place and in a fixed order: the same input gives the same bits.
+// scan.h — Exclusive prefix sums on the device, in place and in a fixed order: the same input gives the same
+// bits.
 //
-// Each thread scans kScanBlock elements in order; sums of blocks are scanned the same way. Cost: linear, 2 dispatches per level.
-// Memory: count / 127 elements of scratch.
+// Each thread scans kScanBlock elements in order; sums of blocks are scanned the same way. Cost: linear, 2
+// dispatches per level. Memory: count / 127 elements of scratch.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,50 @@
+#include "geometry/chunk_tree.h"
+
+#include <algorithm>
+#include <string>
+
+namespace scene_analyzer::geometry {
+namespace {
+
+using interface::mesh::Chunk;
+using interface::mesh::kChunkSize;
+
+constexpr std::uint64_t kLevelAlignment = 32;  // entries
+
+// A run of consecutive entries of one mesh at some level.
+struct Run {
+  std::uint32_t first, count;
+};
+
+std::vector<Chunk> cut(std::vector<Run>& runs) {
+  std::vector<Chunk> chunks;
+  for (std::uint32_t mesh = 0; mesh < runs.size(); ++mesh) {
+    Run& run = runs[mesh];
+    const auto begin = static_cast<std::uint32_t>(chunks.size());
+    for (std::uint32_t done = 0; done < run.count; done += kChunkSize)
+      chunks.push_back(
+          {.first = run.first + done, .count = std::min(kChunkSize, run.count - done), .mesh = mesh});
+    run = {.first = begin, .count = static_cast<std::uint32_t>(chunks.size()) - begin};
+  }
+  return chunks;
+}
+
+}  // namespace
+
+ChunkTree::ChunkTree(gpu::Device& device, std::span<const interface::mesh::MeshRecord> records) {
+  std::vector<Run> runs;
+  for (const auto& record : records) runs.push_back({record.first_triangle, record.triangle_count});
+  const auto single = [](const Run& run) { return run.count == 1; };
+  do {
+    const std::vector<Chunk> chunks = cut(runs);
+    if (levels_.empty())
+      for (const Run& run : runs) first_leaf_.push_back(run.first);
+    levels_.emplace_back(device, "chunks of level " + std::to_string(levels_.size()), chunks.size());
+    levels_.back().upload(device, chunks);
+    offsets_.push_back(static_cast<std::uint32_t>(partial_count_));
+    sizes_.push_back(static_cast<std::uint32_t>(chunks.size()));
+    partial_count_ += (chunks.size() + kLevelAlignment - 1) / kLevelAlignment * kLevelAlignment;
+  } while (!std::all_of(runs.begin(), runs.end(), single));
+}
+
+}  // namespace scene_analyzer::geometry

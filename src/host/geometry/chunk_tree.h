@@ -1,0 +1,66 @@
+// chunk_tree.h — How per-triangle values become per-mesh results: chunks of triangles, chunks of chunks, one
+// result per mesh.
+//
+// Level 0 cuts the triangles of each mesh into runs of kChunkSize; every further level cuts the results of
+// the level below the same way, until the last has exactly one entry per mesh, in mesh order. One thread adds
+// up one chunk in order, so sums do not depend on scheduling.
+//
+// Partial results of all levels share one array; every level begins at a multiple of
+// 32 entries, so that it can be bound alone whatever alignment a device asks for (at most 256 bytes).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/device.h"
+#include "gpu/recorder.h"
+#include "interface/geometry.h"
+#include "interface/mesh.h"
+
+namespace scene_analyzer::geometry {
+
+class ChunkTree {
+ public:
+  ChunkTree() = default;
+  // `records`: meshes with at least one triangle each. Cost: linear in triangles / kChunkSize + meshes.
+  ChunkTree(gpu::Device& device, std::span<const interface::mesh::MeshRecord> records);
+
+  std::uint64_t leaf_count() const { return sizes_.front(); }     // chunks of triangles
+  std::uint64_t partial_count() const { return partial_count_; }  // entries of a partial-result array
+  std::uint64_t mesh_count() const { return sizes_.back(); }
+  std::uint64_t result_offset() const { return offsets_.back(); }  // where the per-mesh results begin
+  const gpu::Array<interface::mesh::Chunk>& leaves() const { return levels_.front(); }
+  // First leaf of a mesh; leaves of one mesh follow each other.
+  std::uint32_t first_leaf(std::size_t mesh) const { return first_leaf_[mesh]; }
+
+  // Records the levels above the leaves: `combine` binds {chunks, partials}.
+  template <typename Totals>
+  void record_combine(gpu::Recorder& recorder, const gpu::Kernel& combine,
+                      const gpu::Array<Totals>& partials) const {
+    for (std::size_t level = 1; level < levels_.size(); ++level) {
+      const interface::geometry::CombineParams params {
+        .chunk_count = sizes_[level], .first_input = offsets_[level - 1], .first_output = offsets_[level]
+      };
+      recorder.run(combine, sizes_[level], params, {levels_[level], partials});
+    }
+  }
+
+  template <typename Totals>
+  gpu::BufferRange result_range(const gpu::Array<Totals>& partials) const {
+    return {partials.buffer(), result_offset() * sizeof(Totals), mesh_count() * sizeof(Totals)};
+  }
+
+  // The per-mesh results of a partial-result array, after its recording has run.
+  template <typename Totals>
+  std::vector<Totals> results(gpu::Device& device, const gpu::Array<Totals>& partials) const {
+    return partials.download(device, result_offset(), mesh_count());
+  }
+
+ private:
+  std::vector<gpu::Array<interface::mesh::Chunk>> levels_;
+  std::vector<std::uint32_t> sizes_, offsets_, first_leaf_;
+  std::uint64_t partial_count_ = 0;
+};
+
+}  // namespace scene_analyzer::geometry

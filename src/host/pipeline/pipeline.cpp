@@ -1,0 +1,210 @@
+#include "pipeline/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "analysis_file/analysis_file.h"
+#include "base/error.h"
+
+namespace scene_analyzer::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::AssetAnalysis;
+using analysis::Metric;
+using analysis::MetricSet;
+
+// Share of an asset's progress that is over when the measuring begins, and when it ends.
+constexpr double kImported = 0.2;
+constexpr double kMeasured = 0.95;
+// Meshes named one by one in a message; a library of thousands would bury everything else.
+constexpr std::size_t kNamedMeshes = 5;
+
+MetricSet set_of(std::initializer_list<Metric> metrics) {
+  MetricSet set;
+  for (const Metric metric : metrics) set.set(index_of(metric));
+  return set;
+}
+
+// What this version measures on the GPU and an analysis file may lack. The Fourier rating and the rendering
+// time are not computed yet: asking for them must not make every file look incomplete.
+const MetricSet kOptionalMetrics =
+    set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation, Metric::kCooccurrenceContrast});
+// Their stored part is counts, areas and bounds, which every analysis holds.
+const MetricSet kCommonMetrics = set_of({Metric::kRelativeDensity, Metric::kDistance});
+
+bool covers(MetricSet stored, MetricSet wanted) {
+  return (wanted & ~stored).none();
+}
+
+// The asset's size and time, to notice that it was changed while it was read.
+struct FileState {
+  std::uintmax_t size = 0;
+  fs::file_time_type time;
+  bool operator==(const FileState&) const = default;
+};
+
+FileState state_of(const fs::path& file) {
+  std::error_code ignored;  // the import reports what is wrong with it
+  return {fs::file_size(file, ignored), fs::last_write_time(file, ignored)};
+}
+
+bool beyond_a_limit(const AssetAnalysis& analysis) {
+  return std::ranges::any_of(analysis.geometries,
+                             [](const auto& geometry) { return !geometry.not_analysed.empty(); });
+}
+
+const std::string& name_of(const AssetAnalysis& analysis, std::size_t geometry) {
+  static const std::string kUnused = "not placed by any node";
+  const auto user = std::ranges::find(analysis.instances, geometry, &analysis::InstanceAnalysis::geometry);
+  return user == analysis.instances.end() ? kUnused : user->mesh.empty() ? user->node : user->mesh;
+}
+
+void describe_limits(const AssetAnalysis& analysis, std::vector<std::string>& messages) {
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < analysis.geometries.size(); ++i) {
+    const auto& geometry = analysis.geometries[i];
+    if (geometry.not_analysed.empty() || ++beyond > kNamedMeshes) continue;
+    messages.push_back(fmt::format("{}: mesh {} ({}) is not analysed: {}", analysis.asset, geometry.mesh,
+                                   name_of(analysis, i), geometry.not_analysed));
+  }
+  if (beyond > kNamedMeshes)
+    messages.push_back(fmt::format("{}: {} more meshes are not analysed for such reasons", analysis.asset,
+                                   beyond - kNamedMeshes));
+}
+
+// What a user has to know about these results, whether they were just computed or read.
+void describe(const AssetAnalysis& analysis, std::vector<std::string>& messages) {
+  for (const std::string& warning : analysis.warnings)
+    messages.push_back(fmt::format("{}: {}", analysis.asset, warning));
+  describe_limits(analysis, messages);
+  if (beyond_a_limit(analysis)) return;
+  const auto has_triangles = [](const auto& geometry) { return geometry.triangles > 0; };
+  if (std::ranges::any_of(analysis.geometries, has_triangles)) return;
+  const auto has_source = [](const auto& geometry) { return geometry.source_triangles > 0; };
+  messages.push_back(fmt::format("{}: {}; there is nothing to rate", analysis.asset,
+                                 std::ranges::any_of(analysis.geometries, has_source)
+                                     ? "all its triangles are degenerate"
+                                     : "it has no triangles"));
+}
+
+// An asset without any mesh still has its row, so that nobody wonders where it went.
+void add_empty_row(AssetAnalysis& analysis) {
+  analysis.geometries.assign(1, {});
+  analysis.instances.assign(1, {});
+}
+
+}  // namespace
+
+Pipeline::Pipeline(Options options, std::function<gpu::Device&()> device)
+    : options_(std::move(options)), device_(std::move(device)) {}
+
+Pipeline::~Pipeline() = default;
+
+Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
+  Outcome outcome;
+  const Progress report = progress ? progress : [](double, const std::string&) {};
+  try {
+    MetricSet wanted = options_.metrics & kOptionalMetrics;
+    if (!options_.use_analysis_files || !reuse(asset, report, wanted, outcome))
+      compute(asset, report, wanted, outcome);
+    describe(*outcome.analysis, outcome.messages);
+  } catch (const InputError& error) {
+    outcome.error = error.what();
+  } catch (const fs::filesystem_error& error) {
+    outcome.error = fmt::format("{}: {}", asset.string(), error.code().message());
+  } catch (const std::bad_alloc&) {
+    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.string());
+  }
+  if (!outcome.error.empty()) outcome.analysis.reset();
+  return outcome;
+}
+
+bool Pipeline::reuse(const fs::path& asset, const Progress& report, MetricSet& wanted,
+                     Outcome& outcome) const {
+  report(0, "checking the analysis file");
+  const fs::path file = analysis_file::path_for(asset, options_.cache_folder);
+  auto loaded = analysis_file::load_valid(file, asset, options_.parameters);
+  if (const auto* unusable = std::get_if<analysis_file::Unusable>(&loaded)) {
+    if (!unusable->absent)
+      outcome.messages.push_back(fmt::format("{}: the analysis file {} {}; it is computed again",
+                                             asset.string(), file.string(), unusable->reason));
+    return false;
+  }
+  auto& stored = std::get<AssetAnalysis>(loaded);
+  if (!covers(stored.computed, wanted)) {
+    // Computing only what is missing would lose what the next run may ask for.
+    wanted |= stored.computed & kOptionalMetrics;
+    return false;
+  }
+  stored.asset = asset.string();
+  outcome.analysis = std::move(stored);
+  outcome.from_file = true;
+  return true;
+}
+
+void Pipeline::compute(const fs::path& asset, const Progress& report, MetricSet wanted, Outcome& outcome) {
+  report(0, "importing");
+  const FileState before = state_of(asset);
+  const mesh::Scene scene = import::import_asset(asset, options_.import_limits);
+  AssetAnalysis& analysis = outcome.analysis.emplace();
+  analysis.asset = asset.string();
+  analysis.format = scene.format;
+  analysis.unit_scale = scene.unit_scale;
+  analysis.up_axis = scene.up_axis;
+  analysis.parameters = options_.parameters;
+  analysis.computed = wanted | kCommonMetrics;
+  analysis.warnings = scene.warnings;
+  if (scene.instances.empty())
+    add_empty_row(analysis);
+  else
+    measure(scene, report, wanted, analysis);
+  if (options_.use_analysis_files) store(asset, scene, before == state_of(asset), report, outcome);
+}
+
+void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricSet wanted,
+                       AssetAnalysis& analysis) {
+  if (!measurer_) {
+    report(kImported, "starting the device");
+    gpu::Device& device = device_();
+    const auto& info = device.info();
+    device_stamp_ = {info.name, info.driver, gpu::to_string(info.type)};
+    measurer_ = std::make_unique<Measurer>(device);
+  }
+  analysis.device = device_stamp_;
+  const auto inner = [&](double fraction, const std::string& step) {
+    report(kImported + (kMeasured - kImported) * fraction, step);
+  };
+  measurer_->measure(scene, options_.parameters, wanted, inner, analysis);
+}
+
+void Pipeline::store(const fs::path& asset, const mesh::Scene& scene, bool unchanged, const Progress& report,
+                     Outcome& outcome) {
+  AssetAnalysis& analysis = *outcome.analysis;
+  // What did not fit may fit on another device, or when other programs have ended: such a result is not the
+  // asset's.
+  if (beyond_a_limit(analysis)) return;
+  report(kMeasured, "writing the analysis file");
+  analysis.files = analysis_file::fingerprint(asset, scene.files);
+  if (!unchanged) {
+    outcome.messages.push_back(
+        fmt::format("{}: the file changed while it was read; its analysis is not kept", asset.string()));
+    return;
+  }
+  const fs::path file = analysis_file::path_for(asset, options_.cache_folder);
+  try {
+    analysis_file::store(file, analysis);
+  } catch (const InputError& error) {
+    // Results are as good as ever, only the next run takes as long as this one.
+    const fs::path folder = options_.cache_folder.value_or(file.parent_path());
+    if (unwritable_folders_.insert(folder).second)
+      outcome.messages.push_back(fmt::format(
+          "{}; analyses of this folder are not kept (--cache-dir names another place)", error.what()));
+  }
+}
+
+}  // namespace scene_analyzer::pipeline

@@ -1,0 +1,1 @@
+test_binary(cooccurrence SOURCES cooccurrence_test.cpp LINK cooccurrence reference test_meshes LABELS gpu)
