@@ -1,0 +1,170 @@
+#include "cli/analyze_options.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "cli/command_line.h"
+#include "cli/exit_code.h"
+#include "cli/option_parsing.h"
+
+namespace scene_analyzer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPurpose =
+    "Rates every mesh of one or several 3D assets, which together form one scene: what is too dense, "
+    "redundant or\n"
+    "uneven. Prints a table; results are kept beside each asset and make the next run instant.\n";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  scene-analyzer analyze room.glb\n"
+    "  scene-analyzer analyze room.glb lamp.obj --json scene.json --csv scene.csv\n"
+    "  scene-analyzer analyze room.glb --eye -1,2,3 --weights distance=1,relative_density=2\n"
+    "  scene-analyzer analyze scan.stl --alpha 2.5 --weld-tolerance 1e-4 --metrics "
+    "polygons_per_planar_group\n"
+    "  scene-analyzer analyze --quiet --json - -- -odd-name.obj | jq '.meshes[].aggregate'\n";
+
+std::string metric_help() {
+  return fmt::format(
+      "Metrics (KEY):\n  {}\n  fourier_transform and rendering_time are not computed by this version; "
+      "they stay empty.\n",
+      fmt::join(analysis::kMetricKeys, "\n  "));
+}
+
+cxxopts::Options make_options() {
+  cxxopts::Options options("scene-analyzer analyze", kPurpose);
+  options.custom_help("[OPTION...] ASSET...").set_width(110);
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add_options("Measuring")(
+      "alpha", "planar groups: largest angle between neighbouring triangles, degrees in [0, 180], default 0",
+      text(),
+      "DEG")("dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000", text(),
+             "N")("steps", "rendering time: rotations about each axis, 1 to 256, default 8", text(), "N")(
+      "weld-tolerance", "distance up to which vertices are one, in units of the file, at least 0, default 0",
+      text(), "L")("metrics", "compute only these, default all", text(), "KEY,...");
+  options.add_options("Rating")(
+      "eye", "where the scene is seen from, world units; default a three-quarter view of the whole scene",
+      text(), "X,Y,Z")("weights",
+                       "share of each metric in the aggregate, at least 0, those not named 0; default 1 each",
+                       text(), "KEY=W,...")(
+      "relative", "map each metric from its range within the scene to its whole range before aggregating");
+  options.add_options("Output")("json", "write JSON to FILE, or to standard output in place of the table (-)",
+                                text(), "FILE|-")(
+      "csv", "write CSV to FILE, or to standard output in place of the table (-)", text(), "FILE|-");
+  options.add_options("Running")(
+      "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
+      text(), "D")("cache-dir", "keep analysis files below DIR, default beside each asset", text(), "DIR")(
+      "no-cache", "neither read nor write analysis files");
+  add_common_options(options);
+  return options;
+}
+
+void read_measuring(const CommandLine& line, pipeline::Options& options) {
+  auto& parameters = options.parameters;
+  if (const auto alpha = line.value("alpha"))
+    parameters.alpha_degrees = parse_number("alpha", *alpha, 0, 180, "degrees");
+  if (const auto dim = line.value("dim"))
+    parameters.dim =
+        static_cast<std::uint32_t>(parse_integer("dim", *dim, 2, std::numeric_limits<std::uint32_t>::max()));
+  if (const auto steps = line.value("steps"))
+    parameters.steps = static_cast<std::uint32_t>(parse_integer("steps", *steps, 1, 256));
+  if (const auto tolerance = line.value("weld-tolerance"))
+    parameters.weld_tolerance = parse_number("weld-tolerance", *tolerance, 0,
+                                             std::numeric_limits<double>::max(), "units of the file");
+  if (const auto metrics = line.value("metrics")) options.metrics = parse_metrics("metrics", *metrics);
+}
+
+void read_rating(const CommandLine& line, analysis::MetricSet metrics, ratings::Options& options) {
+  options.metrics = metrics;
+  options.relative = line.flag("relative");
+  if (const auto eye = line.value("eye")) options.eye = parse_vector3("eye", *eye);
+  const auto weights = line.value("weights");
+  if (!weights) return;
+  options.weights = parse_weights("weights", *weights);
+  bool weighs_something = false;
+  for (std::size_t i = 0; i < options.weights.size(); ++i)
+    weighs_something = weighs_something || (metrics[i] && options.weights[i] > 0);
+  if (!weighs_something)
+    throw UsageError(
+        fmt::format("--weights: '{}' gives no weight to any metric that --metrics asks for", *weights));
+}
+
+// Found out now, not after minutes of work.
+void check_output(const std::string& option, const fs::path& path, const std::vector<std::string>& assets) {
+  if (path == "-") return;
+  std::error_code ignored;  // an unreadable path is reported when it is written
+  if (path.empty()) throw UsageError(fmt::format("--{} needs a file name, or - for standard output", option));
+  if (fs::is_directory(path, ignored))
+    throw UsageError(fmt::format("--{}: '{}' is a folder; a file name is needed", option, path.string()));
+  if (path.has_parent_path() && !fs::is_directory(path.parent_path(), ignored))
+    throw UsageError(
+        fmt::format("--{}: the folder '{}' does not exist", option, path.parent_path().string()));
+  for (const std::string& asset : assets)
+    if (fs::equivalent(path, asset, ignored))
+      throw UsageError(
+          fmt::format("--{}: '{}' is one of the assets and would be overwritten", option, path.string()));
+}
+
+void read_output(const CommandLine& line, AnalyzeRequest& request) {
+  request.json = line.value("json");
+  request.csv = line.value("csv");
+  if (request.json == "-" && request.csv == "-")
+    throw UsageError("--json - and --csv - both ask for standard output; one of them needs a file name");
+  if (request.json) check_output("json", *request.json, request.assets);
+  if (request.csv) check_output("csv", *request.csv, request.assets);
+  if (request.json && request.csv && request.json->lexically_normal() == request.csv->lexically_normal())
+    throw UsageError(fmt::format("--json and --csv name the same file '{}'", request.json->string()));
+}
+
+void read_running(const CommandLine& line, AnalyzeRequest& request) {
+  if (const auto device = line.value("device")) {
+    if (device->empty())
+      throw UsageError("--device needs an index or a part of a name; see 'scene-analyzer devices'");
+    request.device = *device;
+  }
+  request.pipeline.use_analysis_files = !line.flag("no-cache");
+  const auto folder = line.value("cache-dir");
+  if (!folder) return;
+  if (folder->empty()) throw UsageError("--cache-dir needs a folder");
+  if (!request.pipeline.use_analysis_files)
+    throw UsageError("--cache-dir and --no-cache contradict each other; leave one of them out");
+  std::error_code ignored;
+  if (fs::exists(*folder, ignored) && !fs::is_directory(*folder, ignored))
+    throw UsageError(fmt::format("--cache-dir: '{}' is a file; a folder is needed", *folder));
+  request.pipeline.cache_folder = *folder;
+}
+
+}  // namespace
+
+AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
+  cxxopts::Options options = make_options();
+  const CommandLine line(options, arguments);
+  AnalyzeRequest request;
+  request.help = line.flag("help");
+  if (request.help) return request;
+  request.log = log_level(line.flag("quiet"), line.flag("verbose"));
+  request.assets = line.positional();
+  read_measuring(line, request.pipeline);
+  read_rating(line, request.pipeline.metrics, request.ratings);
+  read_running(line, request);
+  if (request.assets.empty())
+    throw UsageError(
+        "no asset is named; write the files to analyse, for example: scene-analyzer analyze room.glb");
+  for (const std::string& asset : request.assets)
+    if (asset.empty())
+      throw UsageError("an asset's name is empty; is a variable of the calling script unset?");
+  read_output(line, request);
+  return request;
+}
+
+std::string analyze_help() {
+  return fmt::format("{}\n{}\n{}\n{}",
+                     make_options().help({"Measuring", "Rating", "Output", "Running", "Messages"}),
+                     metric_help(), kExamples, kExitCodeHelp);
+}
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,162 @@
+#include "cli/option_parsing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+
+namespace scene_analyzer::cli {
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view allowed) {
+  throw UsageError(fmt::format("--{}: '{}' is not {}", option, text, allowed));
+}
+
+// "a,,b" has three parts, the second empty; "" has one.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+// std::from_chars knows no leading plus and accepts "nan" and "inf"; users write the one and never mean the
+// others.
+template <typename Number>
+std::optional<Number> read(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string range_text(double least, double greatest, std::string_view unit) {
+  const std::string suffix = unit.empty() ? "" : fmt::format(" {}", unit);
+  if (greatest == std::numeric_limits<double>::max()) return fmt::format("a number >= {}{}", least, suffix);
+  return fmt::format("a number in [{}, {}]{}", least, greatest, suffix);
+}
+
+std::string known_keys() {
+  return fmt::format("{}", fmt::join(analysis::kMetricKeys, ", "));
+}
+
+analysis::Metric metric_or_refuse(std::string_view option, std::string_view key) {
+  if (const auto metric = analysis::metric_of(key)) return *metric;
+  const std::vector<std::string> keys(analysis::kMetricKeys.begin(), analysis::kMetricKeys.end());
+  const std::string meant = nearest(key, keys);
+  throw UsageError(fmt::format("--{}: '{}' is not a metric{}; known are {}", option, key,
+                               meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant), known_keys()));
+}
+
+}  // namespace
+
+double parse_number(std::string_view option, std::string_view text, double least, double greatest,
+                    std::string_view unit) {
+  const auto value = read<double>(text);
+  if (!value || *value < least || *value > greatest) refuse(option, text, range_text(least, greatest, unit));
+  return *value;
+}
+
+std::uint64_t parse_integer(std::string_view option, std::string_view text, std::uint64_t least,
+                            std::uint64_t greatest) {
+  const auto value = read<std::uint64_t>(text);
+  if (!value || *value < least || *value > greatest)
+    refuse(option, text, fmt::format("a whole number in [{}, {}]", least, greatest));
+  return *value;
+}
+
+mesh::Vector3 parse_vector3(std::string_view option, std::string_view text) {
+  const auto parts = split(text, ',');
+  mesh::Vector3 vector{};
+  bool good = parts.size() == vector.size();
+  for (std::size_t i = 0; good && i < vector.size(); ++i) {
+    const auto value = read<double>(parts[i]);
+    good = value.has_value();
+    vector[i] = value.value_or(0);
+  }
+  if (!good) refuse(option, text, "three finite numbers X,Y,Z without spaces");
+  return vector;
+}
+
+analysis::MetricSet parse_metrics(std::string_view option, std::string_view text) {
+  analysis::MetricSet metrics;
+  for (const std::string_view key : split(text, ',')) {
+    const std::size_t metric = index_of(metric_or_refuse(option, key));
+    if (metrics[metric]) throw UsageError(fmt::format("--{}: '{}' is named twice", option, key));
+    metrics.set(metric);
+  }
+  return metrics;
+}
+
+std::array<double, analysis::kMetricCount> parse_weights(std::string_view option, std::string_view text) {
+  std::array<double, analysis::kMetricCount> weights{};
+  analysis::MetricSet named;
+  for (const std::string_view part : split(text, ',')) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos) refuse(option, part, "KEY=WEIGHT");
+    const std::string_view key = part.substr(0, equals);
+    const std::size_t metric = index_of(metric_or_refuse(option, key));
+    if (named[metric]) throw UsageError(fmt::format("--{}: '{}' is named twice", option, key));
+    named.set(metric);
+    const auto weight = read<double>(part.substr(equals + 1));
+    if (!weight || *weight < 0) refuse(option, part, "KEY=WEIGHT with a number WEIGHT >= 0");
+    weights[metric] = *weight;
+  }
+  if (std::ranges::none_of(weights, [](double weight) { return weight > 0; }))
+    throw UsageError(fmt::format("--{}: '{}' has no weight above 0; at least one is needed", option, text));
+  return weights;
+}
+
+std::uint64_t parse_size(std::string_view option, std::string_view text) {
+  static constexpr std::string_view kUnits = "KMGT";
+  std::string_view digits = text;
+  double factor = 1;
+  if (!digits.empty() && kUnits.find(digits.back()) != std::string_view::npos) {
+    factor = std::exp2(10.0 * static_cast<double>(kUnits.find(digits.back()) + 1));
+    digits.remove_suffix(1);
+  }
+  const auto value = read<double>(digits);
+  constexpr double kGreatest = 0x1p60;  // also keeps the conversion below defined
+  if (!value || *value < 0 || *value * factor > kGreatest)
+    refuse(option, text, "a size such as 4096, 500M or 2G (K, M, G, T are powers of 1024)");
+  return static_cast<std::uint64_t>(*value * factor);
+}
+
+std::string nearest(std::string_view text, std::span<const std::string> candidates) {
+  std::string best;
+  // Two letters swapped or a third of a long word may be wrong; beyond that a suggestion misleads.
+  const std::size_t allowed = text.size() < 4 ? 1 : std::max<std::size_t>(2, text.size() / 3);
+  std::size_t best_distance = allowed + 1;
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein, one row at a time
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= text.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j < row.size(); ++j) {
+        const std::size_t substituted = diagonal + (text[i - 1] == candidate[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,38 @@
+// assets.h — Small assets as text, for runs of the built program.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "cli/selftest_meshes.h"
+
+namespace scene_analyzer {
+
+inline std::string obj_of(const cli::BuiltInMesh& mesh, const std::string& name) {
+  std::string text = fmt::format("o {}\n", name);
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+    text += fmt::format("v {} {} {}\n", mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    text +=
+        fmt::format("f {} {} {}\n", mesh.indices[i] + 1, mesh.indices[i + 1] + 1, mesh.indices[i + 2] + 1);
+  return text;
+}
+
+inline std::string cube_obj() {
+  return obj_of(cli::cube(), "cube");
+}
+inline std::string leg_obj() {
+  return obj_of(cli::prism(10, 1, 0.03, 0.12), "leg");
+}
+
+// A glTF asset with one triangle and `buffer_uri` as the place of its 36 bytes of positions.
+inline std::string gltf_triangle(const std::string& buffer_uri) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"node"}],)"
+         R"("meshes":[{"name":"triangle","primitives":[{"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+         buffer_uri + "\"}]}";
+}
+
+}  // namespace scene_analyzer

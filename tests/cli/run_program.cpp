@@ -1,0 +1,91 @@
+#include "cli/run_program.h"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+#include "support/temporary_folder.h"
+
+namespace scene_analyzer {
+namespace {
+
+void redirect(const std::filesystem::path& file, int descriptor) {
+  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
+}
+
+[[noreturn]] void become_program(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+  setenv("XDG_CACHE_HOME", SCENE_ANALYZER_TEST_CACHE, 1);
+  for (const auto& [name, value] : options.environment)
+    value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
+  if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
+  std::vector<char*> argv = {const_cast<char*>("scene-analyzer")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  execv(SCENE_ANALYZER_BINARY, argv.data());
+  _exit(127);
+}
+
+std::string read_all(int descriptor) {
+  std::string text;
+  char buffer[4096];
+  // A pseudo terminal ends with an error (EIO) when the program closes it.
+  for (ssize_t count = 0; (count = read(descriptor, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(count));
+  return text;
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+  const TemporaryFolder captured;
+  const auto out = captured.path() / "out", err = captured.path() / "err";
+  std::filesystem::create_directories(SCENE_ANALYZER_TEST_CACHE);
+  ProgramResult result;
+  int terminal = -1;
+  winsize size{};
+  size.ws_col = 80;
+  size.ws_row = 25;
+  const pid_t child = options.terminal ? forkpty(&terminal, nullptr, nullptr, &size) : fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    if (!options.terminal) redirect(out, STDOUT_FILENO);
+    redirect(err, STDERR_FILENO);
+    become_program(arguments, options);
+  }
+  if (options.terminal) result.out = read_all(terminal);
+  result.exit_code = wait_for(child);
+  if (options.terminal)
+    close(terminal);
+  else
+    result.out = TemporaryFolder::read(out);
+  result.err = TemporaryFolder::read(err);
+  return result;
+}
+
+std::vector<std::string> lines_with(const std::string& text, const std::string& start) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(start)) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> complaints(const ProgramResult& result) {
+  std::vector<std::string> lines = lines_with(result.err, "");
+  std::erase_if(lines, [](const std::string& line) { return line.starts_with("progress: "); });
+  return lines;
+}
+
+}  // namespace scene_analyzer
