@@ -54,7 +54,9 @@ TEST(ImportStl, SizesThatDoNotMatchAreRefused) {
   const TempFolder folder;
   const std::string whole = binary_stl(5);
   EXPECT_THAT(refusal(folder.write("a.stl", whole.substr(0, whole.size() - 1))),
-              HasSubstr("5 triangles takes 334 bytes and the file has 333"));
+              HasSubstr("of 5 triangles takes 334 bytes and the file has 333"));
+  EXPECT_THAT(refusal(folder.write("a.stl", binary_stl(5, "solid but binary").substr(0, 200))),
+              HasSubstr("the file has 200"));
   EXPECT_THAT(refusal(folder.write("a.stl", whole + "x")), HasSubstr("the file has 335"));
   EXPECT_THAT(refusal(folder.write("a.stl", whole.substr(0, 40))), HasSubstr("no whole STL"));
   EXPECT_THAT(refusal(folder.write("a.stl", binary_stl(0))), HasSubstr("0 triangles"));

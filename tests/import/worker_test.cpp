@@ -62,8 +62,8 @@ TEST(Worker, TheMemoryLimitIsToldApartFromACrash) {
   for (int i = 0; i < 4000000; ++i) points += "1 2 3\n";
   points += "3 0 1 2\n";
   const std::filesystem::path asset = folder.write("big.ply", points);
-  EXPECT_THAT(refusal(asset, {.memory_bytes = std::uint64_t{340} << 20}),
-              HasSubstr("more than the limit of 340 MiB"));
+  EXPECT_THAT(refusal(asset, {.memory_bytes = std::uint64_t{60} << 20}),
+              HasSubstr("more than the limit of 60 MiB"));
   EXPECT_EQ(refusal(asset), "");
 }
 #endif

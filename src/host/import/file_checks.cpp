@@ -62,7 +62,7 @@ void check_start(std::string_view contents, const std::string& extension) {
     throw InputError("is UTF-16 text, which this format does not allow; convert it to UTF-8");
 }
 
-void check_stl(std::string_view contents, std::vector<std::string>& warnings) {
+void check_stl(std::string_view contents) {
   constexpr std::uint64_t kHeader = 84, kTriangle = 50;
   std::uint32_t triangles = 0;
   if (contents.size() >= kHeader)
@@ -70,15 +70,34 @@ void check_stl(std::string_view contents, std::vector<std::string>& warnings) {
   const std::uint64_t expected = kHeader + kTriangle * triangles;
   const bool is_binary = contents.size() >= kHeader && contents.size() == expected;
   const std::size_t first = contents.find_first_not_of(" \t\r\n");
+  // Binary headers may start with "solid" too, but text has no zero bytes.
+  const bool is_text = contents.substr(0, 4096).find('\0') == std::string_view::npos &&
+                       first != std::string_view::npos && lower(contents.substr(first, 5)) == "solid";
   if (is_binary && triangles > 0) return;
   if (is_binary) throw InputError("is a binary STL of 0 triangles");
-  if (first == std::string_view::npos || !lower(contents.substr(first, 5)).starts_with("solid"))
-    throw InputError("is no whole STL: binary STL of " + std::to_string(triangles) + " triangles takes " +
-                     std::to_string(expected) + " bytes and the file has " + std::to_string(contents.size()) +
-                     "; text does not start with \"solid\"");
-  if (lower(contents.substr(contents.size() - std::min<std::size_t>(contents.size(), 512)))
-          .find("endsolid") == std::string::npos)
-    warnings.push_back("the text does not end with \"endsolid\": the file may be cut off");
+  if (is_text) return;
+  throw InputError("is no whole STL: a binary one of " + std::to_string(triangles) + " triangles takes " +
+                   std::to_string(expected) + " bytes and the file has " + std::to_string(contents.size()) +
+                   "; a text one starts with \"solid\" and has no zero bytes");
+}
+
+// Formats that say where they end, and of which Assimp takes any part without a word.
+struct Ending {
+  std::string_view extension;
+  std::string_view last_words;  // lower case, somewhere in the last bytes
+};
+constexpr std::array kEndings = {Ending{".stl", "endsolid"}, Ending{".dxf", "eof"}, Ending{".smd", "end"},
+                                 Ending{".x3d", "</x3d"}};
+constexpr std::size_t kLastBytes = 512;
+
+void check_ending(std::string_view contents, const std::string& extension,
+                  std::vector<std::string>& warnings) {
+  const std::string_view last = contents.substr(contents.size() - std::min(contents.size(), kLastBytes));
+  if (last.find('\0') != std::string_view::npos) return;  // the binary kind of the format
+  for (const Ending& ending : kEndings)
+    if (extension == ending.extension && lower(last).find(ending.last_words) == std::string::npos)
+      warnings.push_back("its text does not end with \"" + std::string(ending.last_words) +
+                         "\": the file may be cut off");
 }
 
 }  // namespace
@@ -87,8 +106,9 @@ void check_file(const std::string& asset, std::vector<std::string>& warnings) {
   const MappedFile file("./" + asset);
   const std::string extension = extension_of(asset);
   check_start(file.text(), extension);
-  if (extension == ".stl") check_stl(file.text(), warnings);
+  if (extension == ".stl") check_stl(file.text());
   if (extension == ".ply") check_ply(file.text());
+  check_ending(file.text(), extension, warnings);
 }
 
 void require_content(const std::string& asset, std::size_t meshes) {

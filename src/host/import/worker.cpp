@@ -1,6 +1,7 @@
 // The worker's side: give up rights, check, import on a deep stack, write the answer, vanish.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -77,6 +78,15 @@ void refuse(const std::string& reason) {
   writer.finish(wire::Status::kRefused);
 }
 
+// Mappings and threads fail with these when there is no room left.
+void refuse_system_error(const std::system_error& error) {
+  if (error.code() == std::errc::not_enough_memory ||
+      error.code() == std::errc::resource_unavailable_try_again)
+    wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
+  else
+    refuse(error.what());
+}
+
 struct Job {
   std::filesystem::path asset;
 };
@@ -88,9 +98,17 @@ void run(const Job& job) {
     import_into(files, writer);
   } catch (const std::bad_alloc&) {
     wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
+  } catch (const std::system_error& error) {
+    refuse_system_error(error);
   } catch (const std::exception& error) {
     refuse(error.what());
   }
+}
+
+// Near the limit glibc finds no room for a second thread's arena and gives every small block a mapping of its
+// own, which is a thousand times slower and lasts until the time limit: one arena for all.
+void use_one_arena() {
+  ::mallopt(M_ARENA_MAX, 1);
 }
 
 void run_on_deep_stack(Job& job) {
@@ -122,11 +140,15 @@ int worker_main(int argc, char** argv) {
   if (argc != 6) return 2;  // started by hand: it has no one to answer to
   try {
     Job job{argv[2]};
-    limit_this_process(number(argv[3]), number(argv[4]), static_cast<pid_t>(number(argv[5])));
+    // The stack is room that most files never touch: it comes on top of what the import may take.
+    limit_this_process(number(argv[3]) + kStackBytes, number(argv[4]), static_cast<pid_t>(number(argv[5])));
     if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());
     allow_reading_only(".", job.asset.filename());
     std::set_new_handler(report_out_of_memory);
+    use_one_arena();
     run_on_deep_stack(job);
+  } catch (const std::system_error& error) {
+    refuse_system_error(error);
   } catch (const std::exception& error) {
     refuse(std::string("the importer could not be set up: ") + error.what());
   }
