@@ -43,14 +43,15 @@ TEST_F(DeviceTest, CanBeChosenByIndexAndName) {
   EXPECT_THROW(gpu::Device{options}, gpu::NoDevice);
 }
 
-TEST_F(DeviceTest, StartsFast) {
+TEST_F(DeviceTest, StartsWithinASecondOnceTheDriverIsLoaded) {
   gpu::DeviceOptions options = test::device_options();
   options.validation = false;
   const auto start = std::chrono::steady_clock::now();
-  const gpu::Device cold(options);
+  const gpu::Device another(options);
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-  std::printf("instance and device: %.1f ms on %s\n", elapsed.count(), cold.info().name.c_str());
-  EXPECT_LT(elapsed.count(), 10000);
+  std::printf("instance and device: %.1f ms on %s\n", elapsed.count(), another.info().name.c_str());
+  // The usual time is 10 to 20 ms; many tests may be running beside this one.
+  EXPECT_LT(elapsed.count(), 1000);
 }
 
 }  // namespace

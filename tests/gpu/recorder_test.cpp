@@ -258,6 +258,16 @@ TEST_F(RecorderTest, WithoutProfileThereAreNoTimings) {
   EXPECT_TRUE(recorder.timings().empty());
 }
 
+TEST_F(RecorderTest, FailedStepLeavesTheRecordingUsable) {
+  const gpu::Kernel kernel = add_scaled();
+  const auto values = words("values", 64);
+  gpu::Recorder recorder(device());
+  recorder.fill(values, 4);
+  EXPECT_THROW(recorder.run(kernel, 64, gpu::NoParams{}, {values}), std::logic_error);
+  recorder.submit_and_wait();
+  EXPECT_THAT(values.download(device()), Each(Eq(4u)));
+}
+
 TEST_F(RecorderTest, LostDeviceIsReportedAndStaysLost) {
   gpu::Device doomed(test::device_options());
   const gpu::Array<std::uint32_t> values(doomed, "values", 64);
@@ -273,8 +283,8 @@ TEST_F(RecorderTest, LostDeviceIsReportedAndStaysLost) {
     EXPECT_THAT(error.what(), HasSubstr("Start again"));
   }
   EXPECT_EQ(doomed.buffer_bytes(), before);  // kept scratch is freed on this way too
-  recorder.fill(values, 1);
-  EXPECT_THROW(recorder.submit_and_wait(), gpu::DeviceLost);
+  EXPECT_THROW(recorder.fill(values, 1), gpu::DeviceLost);
+  recorder.submit_and_wait();  // nothing recorded
   EXPECT_THAT(doomed.take_validation_messages(), testing::IsEmpty());
 }
 

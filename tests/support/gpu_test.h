@@ -37,16 +37,16 @@ inline gpu::DeviceOptions device_options() {
 
 class GpuTest : public testing::Test {
  protected:
-  // Made at the first use and kept for the process: a device costs more than most tests.
+  // The driver stays loaded from here on: unloaded, its own leaks could not be told from ours by name.
+  GpuTest() { device(); }
+
+  // Made once and kept for the process: a device costs more than most tests.
   static gpu::Device& device() {
     if (!shared()) shared() = std::make_unique<gpu::Device>(device_options());
     return *shared();
   }
 
-  void TearDown() override {
-    if (!shared()) return;
-    EXPECT_THAT(shared()->take_validation_messages(), testing::IsEmpty());
-  }
+  void TearDown() override { EXPECT_THAT(device().take_validation_messages(), testing::IsEmpty()); }
 
  private:
   // Never destroyed: when static objects die, the driver's own may already be gone.

@@ -122,6 +122,7 @@ Recorder::Impl::Impl(Device& owner, bool profile) : device(owner), commands(owne
 }
 
 const vk::raii::CommandBuffer& Recorder::Impl::next_step() {
+  if (device.native().lost) throw DeviceLost(device_lost_message("recording"));
   if (step_count == 0)
     translated("beginning a recording",
                [&] { commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); });
@@ -195,9 +196,10 @@ void Recorder::submit_and_wait() {
     if (impl_->stopwatch)
       impl_->timings = translated("reading timestamps", [&] { return impl_->stopwatch->take(); });
   } catch (...) {
-    // The recording is dropped as a whole, whatever state its command buffer is in.
+    // The recording is dropped as a whole, whatever state its command buffer is in. On a lost device nothing
+    // can be made, and nothing will be recorded again.
     if (impl_->stopwatch) impl_->stopwatch->clear();
-    impl_->commands = impl_->device.native().make_commands();
+    if (!impl_->device.native().lost) impl_->commands = impl_->device.native().make_commands();
     throw;
   }
 }

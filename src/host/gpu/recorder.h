@@ -34,7 +34,7 @@ class Recorder {
   // record nothing. Workgroups beyond 65535 are folded into y: kernels take their index from global_thread()
   // of shaders/compute/lib/threads.glsl. Arguments are bound in order; their number and the size of `params`
   // must equal what the SPIR-V says, and each range must be within maxStorageBufferRange: std::logic_error
-  // otherwise.
+  // otherwise, and nothing is recorded. Kernel and buffers must live until the recording has run.
   template <typename Params>
   void run(const Kernel& kernel, std::uint64_t threads, const Params& params,
            std::initializer_list<BufferRange> buffers) {
@@ -61,8 +61,8 @@ class Recorder {
     return *owned;
   }
 
-  // Submits, waits without a busy loop, frees kept scratch; the recorder is empty again afterwards. Throws
-  // DeviceLost, OutOfMemory. Nothing recorded: returns at once.
+  // Submits, waits without a busy loop, frees kept scratch; the recorder is empty again afterwards, after an
+  // exception too. Throws DeviceLost, OutOfMemory. Nothing recorded: returns at once.
   void submit_and_wait();
 
   struct Timing {
