@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli/assets.h"
@@ -23,6 +24,14 @@ using testing::Not;
 
 const std::map<std::string, std::string> kNoDriver = {{"VK_DRIVER_FILES", "/nonexistent"},
                                                       {"VK_ICD_FILENAMES", "/nonexistent"}};
+
+bool follows_schema(const fs::path& report) {
+  const std::string source = SCENE_ANALYZER_SOURCE_DIR;
+  const std::string command = fmt::format(
+      "/usr/bin/python3 '{0}/tests/report/validate_report.py' '{0}/docs/schema/report-v1.schema.json' '{1}'",
+      source, report.string());
+  return std::system(command.c_str()) == 0;
+}
 
 class AnalyzeTest : public testing::Test {
  protected:
@@ -71,6 +80,7 @@ TEST_F(AnalyzeTest, SeveralAssetsAreOneSceneInTableJsonAndCsv) {
   EXPECT_EQ(leg["ratings"]["relative_density"], 0.5);
   EXPECT_NE(document["tool"]["device"], "");
 
+  EXPECT_TRUE(follows_schema(folder_.path() / "out.json"));
   const std::string csv = TemporaryFolder::read(folder_.path() / "out.csv");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 3) << csv;
 }
@@ -199,6 +209,18 @@ TEST_F(AnalyzeTest, AnAssetGivenTwiceHasItsRowsTwice) {
   EXPECT_EQ(document["meshes"][0]["asset"], "cube.obj");
   EXPECT_EQ(document["meshes"][1]["asset"], "./cube.obj");
   EXPECT_EQ(document["meshes"][0]["ratings"], document["meshes"][1]["ratings"]);
+}
+
+TEST_F(AnalyzeTest, AssetsWithOtherUnitsOrAxesAreAWarning) {
+  folder_.write("metres.gltf", gltf_triangle("metres.bin"));
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder_.write("metres.bin", std::string(reinterpret_cast<const char*>(positions), sizeof positions));
+  folder_.write("centimetres.fbx", fbx_triangle());
+  const ProgramResult result = analyze({"metres.gltf", "centimetres.fbx"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(complaints(result), ElementsAre(AllOf(HasSubstr("unit"), HasSubstr("metres.gltf has 1"),
+                                                    HasSubstr("centimetres.fbx has 0.01")),
+                                              AllOf(HasSubstr("up axis"), HasSubstr("+Z"))));
 }
 
 TEST_F(AnalyzeTest, NamesWithDashesCommasAndSpaces) {

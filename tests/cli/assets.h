@@ -35,4 +35,35 @@ inline std::string gltf_triangle(const std::string& buffer_uri) {
          buffer_uri + "\"}]}";
 }
 
+// FBX with one triangle, in centimetres and with Z up.
+inline std::string fbx_triangle() {
+  return R"(; FBX 7.4.0 project file
+FBXHeaderExtension:  {
+  FBXHeaderVersion: 1003
+  FBXVersion: 7400
+}
+GlobalSettings:  {
+  Version: 1000
+  Properties70:  {
+    P: "UpAxis", "int", "Integer", "",2
+    P: "UpAxisSign", "int", "Integer", "",1
+    P: "UnitScaleFactor", "double", "Number", "",1
+  }
+}
+Objects:  {
+  Geometry: 1, "Geometry::g", "Mesh" {
+    Vertices: *9 { a: 0,0,0,1,0,0,0,1,0 }
+    PolygonVertexIndex: *3 { a: 0,1,-3 }
+  }
+  Model: 2, "Model::m", "Mesh" {
+    Version: 232
+  }
+}
+Connections:  {
+  C: "OO",2,0
+  C: "OO",1,2
+}
+)";
+}
+
 }  // namespace scene_analyzer

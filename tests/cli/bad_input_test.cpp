@@ -115,6 +115,17 @@ TEST_F(BadInputTest, AnAssetWithoutTrianglesIsAWarningAndAnEmptyRow) {
   EXPECT_TRUE(mesh["aggregate"].is_null());
 }
 
+TEST_F(BadInputTest, AnAssetWithoutAnyMeshHasARowToo) {
+  folder_.write("points.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                "z\nend_header\n0 0 0\n1 0 0\n0 1 0\n");
+  const ProgramResult result = analyze({"points.ply", "--json", "-"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(lines_with(result.err, "warning: "),
+              ElementsAre(AllOf(HasSubstr("points.ply"), HasSubstr("no triangles"))));
+  EXPECT_EQ(nlohmann::json::parse(result.out)["meshes"].size(), 1U);
+}
+
 TEST_F(BadInputTest, UnwritableOutputsAreExitCode3) {
   folder_.write("good.obj", cube_obj());
   const ProgramResult result = analyze({"good.obj", "--json", "/proc/out.json", "--csv", "out.csv"});
