@@ -202,8 +202,7 @@ void Pipeline::store(const fs::path& asset, const mesh::Scene& scene, bool uncha
     // Results are as good as ever, only the next run takes as long as this one.
     const fs::path folder = options_.cache_folder.value_or(file.parent_path());
     if (unwritable_folders_.insert(folder).second)
-      outcome.messages.push_back(fmt::format(
-          "{}; analyses of this folder are not kept (--cache-dir names another place)", error.what()));
+      outcome.messages.push_back(fmt::format("{}; analyses of this folder are not kept", error.what()));
   }
 }
 
