@@ -189,6 +189,33 @@ TEST(ImportGltf, MeshesThatNoNodeShowsAreNotInstances) {
   EXPECT_EQ(scene.instances.size(), 1u);
 }
 
+// Assimp 5.2.5 crashes on these, which are valid: the matrices of a skin are optional.
+TEST(ImportGltf, SkinsWithoutMatricesAreReadInTheirRestPose) {
+  QuadGltf quad;
+  quad.root["skins"] = {{{"joints", {1}}}};
+  quad.root["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"name", "joint"}}};
+  quad.root["scenes"][0]["nodes"] = {0, 1};
+  for (const int accessor : {2, 3}) {
+    quad.root["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", accessor == 2 ? 16 : 64}});
+    quad.root["accessors"].push_back({{"bufferView", accessor},
+                                      {"componentType", accessor == 2 ? 5121 : 5126},
+                                      {"count", 4},
+                                      {"type", "VEC4"}});
+  }
+  quad.positions.resize(16, 0);  // room for the weights' view; what they say does not matter
+  quad.root["buffers"][0]["byteLength"] = 76;
+  quad.root["bufferViews"][1]["byteOffset"] = 64;
+  quad.root["meshes"][0]["primitives"][0]["attributes"].update({{"JOINTS_0", 2}, {"WEIGHTS_0", 3}});
+  const TempFolder folder;
+  for (const std::filesystem::path& asset :
+       {folder.write("a.gltf", quad.text()), folder.write("b.glb", quad.binary())}) {
+    const mesh::Scene scene = import_asset(asset);
+    EXPECT_EQ(scene.meshes.at(0).triangle_count(), 2u);
+    EXPECT_EQ(scene.instances.at(0).world, mesh::kIdentity4);
+  }
+}
+
 TEST(ImportGltf, BrokenContainers) {
   const std::string whole = QuadGltf().binary();
   const TempFolder folder;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string_view>
 
 #include "import/asset_files.h"
@@ -12,13 +14,17 @@ namespace scene_analyzer::import {
 
 class AssetIo : public Assimp::DefaultIOSystem {
  public:
-  explicit AssetIo(AssetFiles& files) : files_(files) {}
+  // `replacement`, when not empty, is read in place of the asset itself. Both outlive the object.
+  AssetIo(AssetFiles& files, std::string_view replacement) : files_(files), replacement_(replacement) {}
 
   bool Exists(const char* file) const override { return !find(file).path.empty(); }
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (mode == nullptr || mode[0] != 'r') return nullptr;
     const AssetFiles::Found found = find(file);
+    if (!replacement_.empty() && found.path == "./" + files_.asset_name())
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(replacement_.data()),
+                                        replacement_.size());
     return found.path.empty() ? nullptr : DefaultIOSystem::Open(found.path.c_str(), mode);
   }
 
@@ -32,6 +38,7 @@ class AssetIo : public Assimp::DefaultIOSystem {
   }
 
   AssetFiles& files_;
+  std::string_view replacement_;
 };
 
 }  // namespace scene_analyzer::import

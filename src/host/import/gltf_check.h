@@ -19,6 +19,9 @@ struct ExpectedGltf {
       triangles;  // over all meshes that the scene's nodes show, each once; absent: no glTF 2
   // Materials of the file; what Assimp has beyond is its default.
   std::size_t materials = std::numeric_limits<std::size_t>::max();
+  // What Assimp has to read in place of the file, or empty: skins without matrices, which are valid, crash
+  // it. The rest pose needs no skin.
+  std::string replacement;
 };
 
 // Whether a required extension is on the list of those under which Assimp's geometry was tested to be right.

@@ -26,6 +26,11 @@ std::uint32_t word(std::string_view bytes, std::size_t offset) {
   return value;
 }
 
+void append_word(std::string& bytes, std::size_t value) {
+  const auto little = static_cast<std::uint32_t>(value);
+  bytes.append(reinterpret_cast<const char*>(&little), sizeof little);
+}
+
 // One chunk at `offset`, which moves behind it.
 std::string_view take_chunk(std::string_view file, std::size_t& offset, std::string_view type) {
   const std::string name(type.substr(0, type.find('\0')));
@@ -175,6 +180,25 @@ void load_buffers(GltfDocument& document, AssetFiles& files) {
                        std::to_string(data.size()));
     document.buffers.push_back(data.first(bytes));
   }
+}
+
+std::string without_skins(const GltfDocument& document) {
+  json root = document.root;
+  if (root.contains("nodes"))
+    for (json& node : root["nodes"])
+      if (node.is_object()) node.erase("skin");
+  std::string text = root.dump();
+  if (!document.binary_chunk) return text;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::span<const std::uint8_t> binary = *document.binary_chunk;
+  std::string file = "glTF";
+  append_word(file, 2);
+  append_word(file, 12 + 8 + text.size() + 8 + binary.size());
+  append_word(file, text.size());
+  file.append("JSON").append(text);
+  append_word(file, binary.size());
+  file.append("BIN\0", 4).append(reinterpret_cast<const char*>(binary.data()), binary.size());
+  return file;
 }
 
 std::uint64_t whole_number(const json& object, const char* key, std::uint64_t otherwise,

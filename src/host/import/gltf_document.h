@@ -31,6 +31,9 @@ std::optional<GltfDocument> open_gltf(const AssetFiles& files, std::vector<std::
 // it says. Cost: data URIs are decoded; buffers in files are mapped, not read.
 void load_buffers(GltfDocument& document, AssetFiles& files);
 
+// The file again, in the container it came in, with no node using a skin.
+std::string without_skins(const GltfDocument& document);
+
 // Members of JSON objects. `where` names the object in messages ("accessor 3"). Throw InputError for the
 // wrong type.
 std::uint64_t whole_number(const nlohmann::json& object, const char* key, std::uint64_t otherwise,

@@ -61,7 +61,7 @@ void import_into(AssetFiles& files, wire::Writer& writer) {
   check_file(files.asset_name(), warnings);
   const ExpectedGltf expected = check_gltf(files, warnings);
   Assimp::Importer importer;
-  importer.SetIOHandler(new AssetIo(files));  // which the importer owns
+  importer.SetIOHandler(new AssetIo(files, expected.replacement));  // which the importer owns
   if (importer.ReadFile("./" + files.asset_name(), aiProcess_Triangulate) == nullptr) {
     throw_if_out_of_memory(importer);
     throw InputError(explain_failure(importer.GetErrorString(), files.asset_name()));
