@@ -5,37 +5,38 @@
 
 INTERFACE_BEGIN(cooccurrence)
 
-INTERFACE_CONST uint kClassBlock = 512;   // sorted areas per thread when classes are formed
-INTERFACE_CONST uint kBins = 64;          // per axis of the binned histogram
+INTERFACE_CONST uint kClassBlock = 512;  // sorted areas per thread when classes are formed
+INTERFACE_CONST uint kBins = 64;         // per axis of the binned histogram
 
-// Key: mesh, then exponent, then the leading bits of the mantissa of the area; all ones for degenerate triangles.
+// Key: mesh, then exponent, then the leading bits of the mantissa of the area; all ones for degenerate
+// triangles.
 struct KeyParams {
   uint triangles;
   uint exponent_bits;
   uint mantissa_bits;
-  uint least_exponent;   // biased, of the smallest kept area of the batch
+  uint least_exponent;  // biased, of the smallest kept area of the batch
 };
 
 // A mesh's kept triangles within the list of all sorted by area.
 struct SortedRange {
   uint first;
   uint count;
-  uint first_block;   // blocks of kClassBlock sorted areas
+  uint first_block;  // blocks of kClassBlock sorted areas
 };
 
 struct SortedParams {
-  uint count;        // kept triangles of the batch
-  uint triangles;    // all triangles of the batch
+  uint count;      // kept triangles of the batch
+  uint triangles;  // all triangles of the batch
   uint blocks;
   uint meshes;
 };
 
 // The area classes of one mesh, numbered over the batch.
 struct ClassRange {
-  double lowest;     // attribute of the first class
-  double highest;    // of the last
+  double lowest;   // attribute of the first class
+  double highest;  // of the last
   uint first;
-  uint count;        // 0 without a kept triangle
+  uint count;  // 0 without a kept triangle
 };
 
 struct ContrastParams {
@@ -43,11 +44,11 @@ struct ContrastParams {
 };
 
 struct SharedValueParams {
-  uint count;        // shared half-edges
+  uint count;  // shared half-edges
 };
 
 struct BinParams {
-  uint first_mesh;   // histogram 0 belongs to this mesh
+  uint first_mesh;  // histogram 0 belongs to this mesh
   uint chunk_first;
   uint chunk_count;
 };

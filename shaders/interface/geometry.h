@@ -8,7 +8,7 @@ INTERFACE_BEGIN(geometry)
 struct WeldParams {
   uint vertex_count;
   uint mesh_count;
-  uint slots;        // size of the hash table, > vertex_count
+  uint slots;  // size of the hash table, > vertex_count
 };
 
 struct ResolveParams {
@@ -27,13 +27,17 @@ struct CombineParams {
 };
 
 struct InstanceRecord {
-  INTERFACE_ARRAY(double, world, 12);   // rows of the upper 3x4 of the world matrix
-  uint first_chunk;                     // chunks of level 0 of the instance's mesh
-  uint chunk_count;
+  INTERFACE_ARRAY(double, world, 12);  // rows of the upper 3x4 of the world matrix
+  uint first_block;                    // chunks of level 1 of the instance's mesh
+  uint block_count;
+  uint first_output;  // blocks of the instances before
+  uint padding;
 };
 
 struct InstanceBoundsParams {
   uint instance_count;
+  uint output_count;  // blocks of all instances
+  uint first_block;   // where level 1 begins among the partial results
 };
 
 INTERFACE_END

@@ -80,6 +80,11 @@ TEST_F(AdjacencyTest, AHubVertexOfHighValence) {
   compare(test_meshes::cone_fan(50'000));
 }
 
+// Software devices end a thread's loops after 65535 steps: no thread may walk an edge.
+TEST_F(AdjacencyTest, AnEdgeWithVeryManyTriangles) {
+  compare(test_meshes::book(100'000, 3));
+}
+
 TEST_F(AdjacencyTest, ShuffledTrianglesHaveTheSameCounts) {
   for (const TestMesh& mesh : test::measurable_meshes()) compare(test_meshes::shuffled(mesh, 5));
 }

@@ -49,9 +49,9 @@ inline MeshOnDevice measure_up_to_adjacency(gpu::Device& device, const test_mesh
   gpu::Recorder recorder(device);
   MeshOnDevice result;
   result.geometry = kernels(device).geometry.record(recorder, batch);
-  result.adjacency = kernels(device).adjacency.record(recorder, result.geometry);
+  auto matching = kernels(device).adjacency.record_matching(recorder, result.geometry);
   recorder.submit_and_wait();
-  kernels(device).adjacency.index_shared(device, result.geometry, result.adjacency);
+  result.adjacency = kernels(device).adjacency.complete(device, result.geometry, std::move(matching));
   return result;
 }
 

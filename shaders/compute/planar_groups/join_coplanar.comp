@@ -18,6 +18,7 @@ layout(binding = 6, scalar) readonly buffer Heights { double heights[]; };
 layout(binding = 7, scalar) readonly buffer Twin { uint twin[]; };
 layout(binding = 8, scalar) coherent buffer Parent { uint parent[]; };
 #include "compute/lib/threads.glsl"
+#define EDGES_OF_CORNERS
 #include "compute/lib/half_edges.glsl"
 #include "compute/lib/union_find.glsl"
 #include "compute/lib/planarity.glsl"

@@ -26,6 +26,7 @@ layout(binding = 13, scalar) readonly buffer HeightLow { uint height_low[]; };
 layout(binding = 14, scalar) coherent buffer Parent { uint parent[]; };
 layout(binding = 15, scalar) buffer Steps { uint steps[]; };
 #include "compute/lib/threads.glsl"
+#define EDGES_OF_CORNERS
 #include "compute/lib/half_edges.glsl"
 #include "compute/lib/positions.glsl"
 #include "compute/lib/edge_frame.glsl"

@@ -22,6 +22,7 @@ layout(binding = 10, scalar) writeonly buffer High { uint high[]; };
 layout(binding = 11, scalar) writeonly buffer Values { uint values[]; };
 layout(binding = 12, scalar) buffer HeightHigh { uint height_high[]; };
 #include "compute/lib/threads.glsl"
+#define EDGES_OF_CORNERS
 #include "compute/lib/half_edges.glsl"
 #include "compute/lib/positions.glsl"
 #include "compute/lib/edge_frame.glsl"

@@ -26,26 +26,36 @@ struct SharedEdges {
 struct Adjacency {
   gpu::Array<std::uint32_t> twin;                           // per half-edge, see interface/adjacency.h
   gpu::Array<std::uint32_t> labels;                         // per triangle: lowest triangle of its component
-  gpu::Array<std::uint32_t> shared_count;                   // one element
   gpu::Array<interface::adjacency::TopologyTotals> totals;  // partial results of the geometry's chunks
-  SharedEdges shared;                                       // after index_shared()
+  SharedEdges shared;
 };
 
 class AdjacencyBuilder {
  public:
   AdjacencyBuilder(gpu::Device& device, const primitives::RadixSort& sort);
 
-  Adjacency record(gpu::Recorder& recorder, const geometry::Geometry& geometry) const;
+  // What matching leaves for complete(): sizes of the rest depend on the data.
+  struct Matching {
+    gpu::Array<std::uint32_t> twin;
+    gpu::Array<std::uint32_t> table;
+    gpu::Array<std::uint32_t> shared_count;  // one element
+  };
 
-  // To be called once record() has run: lists half-edges of shared edges, if there are any, and lets their
-  // twins point into the list. Runs to completion.
-  void index_shared(gpu::Device& device, const geometry::Geometry& geometry, Adjacency& adjacency) const;
+  // Records the search for half-edges that meet, to be run in one go with the geometry's recording.
+  Matching record_matching(gpu::Recorder& recorder, const geometry::Geometry& geometry) const;
+
+  // To be called once record_matching() has run: lists shared edges, if there are any, labels components and
+  // adds up. Runs to completion.
+  Adjacency complete(gpu::Device& device, const geometry::Geometry& geometry, Matching matching) const;
 
  private:
+  void record_shared(gpu::Recorder& recorder, const geometry::Geometry& geometry, const Matching& matching,
+                     SharedEdges& shared) const;
+
   const primitives::RadixSort& sort_;
   LabelSets label_sets_;
-  gpu::Kernel hash_half_edges_, link_half_edges_, join_components_, sum_topology_, combine_, gather_shared_,
-      index_shared_;
+  gpu::Kernel hash_half_edges_, link_half_edges_, count_shared_, gather_shared_, locate_shared_, key_shared_,
+      index_shared_, join_components_, sum_topology_, combine_;
 };
 
 }  // namespace scene_analyzer::adjacency

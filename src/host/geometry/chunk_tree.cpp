@@ -11,10 +11,8 @@ using interface::mesh::kChunkSize;
 
 constexpr std::uint64_t kLevelAlignment = 32;  // entries
 
-// A run of consecutive entries of one mesh at some level.
-struct Run {
-  std::uint32_t first, count;
-};
+// Consecutive entries of one mesh at some level.
+using Run = ChunkTree::Range;
 
 std::vector<Chunk> cut(std::vector<Run>& runs) {
   std::vector<Chunk> chunks;
@@ -37,14 +35,13 @@ ChunkTree::ChunkTree(gpu::Device& device, std::span<const interface::mesh::MeshR
   const auto single = [](const Run& run) { return run.count == 1; };
   do {
     const std::vector<Chunk> chunks = cut(runs);
-    if (levels_.empty())
-      for (const Run& run : runs) first_leaf_.push_back(run.first);
+    if (levels_.size() == 1) blocks_of_ = runs;
     levels_.emplace_back(device, "chunks of level " + std::to_string(levels_.size()), chunks.size());
     levels_.back().upload(device, chunks);
     offsets_.push_back(static_cast<std::uint32_t>(partial_count_));
     sizes_.push_back(static_cast<std::uint32_t>(chunks.size()));
     partial_count_ += (chunks.size() + kLevelAlignment - 1) / kLevelAlignment * kLevelAlignment;
-  } while (!std::all_of(runs.begin(), runs.end(), single));
+  } while (levels_.size() < 2 || !std::all_of(runs.begin(), runs.end(), single));
 }
 
 }  // namespace scene_analyzer::geometry

@@ -31,8 +31,13 @@ class ChunkTree {
   std::uint64_t mesh_count() const { return sizes_.back(); }
   std::uint64_t result_offset() const { return offsets_.back(); }  // where the per-mesh results begin
   const gpu::Array<interface::mesh::Chunk>& leaves() const { return levels_.front(); }
-  // First leaf of a mesh; leaves of one mesh follow each other.
-  std::uint32_t first_leaf(std::size_t mesh) const { return first_leaf_[mesh]; }
+  // Level 1, chunks of chunks: always there. Those of one mesh follow each other.
+  struct Range {
+    std::uint32_t first, count;
+  };
+  const gpu::Array<interface::mesh::Chunk>& blocks() const { return levels_[1]; }
+  std::uint32_t block_offset() const { return offsets_[1]; }
+  Range blocks_of(std::size_t mesh) const { return blocks_of_[mesh]; }
 
   // Records the levels above the leaves: `combine` binds {chunks, partials}.
   template <typename Totals>
@@ -59,7 +64,8 @@ class ChunkTree {
 
  private:
   std::vector<gpu::Array<interface::mesh::Chunk>> levels_;
-  std::vector<std::uint32_t> sizes_, offsets_, first_leaf_;
+  std::vector<std::uint32_t> sizes_, offsets_;
+  std::vector<Range> blocks_of_;
   std::uint64_t partial_count_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "combine_geometry.spv.h"
 #include "geometry/upload.h"
 #include "measure_triangles.spv.h"
+#include "probe_instances.spv.h"
 #include "resolve_welds.spv.h"
 #include "weld_corners.spv.h"
 #include "weld_vertices.spv.h"
@@ -21,7 +23,8 @@ using interface::mesh::kNone;
 namespace {
 
 constexpr std::uint32_t kTransformed[] = {1};
-constexpr std::size_t kInstancesPerDispatch = 65536;  // bounds the memory that records of instances take
+constexpr std::uint32_t kBlocksPerDispatch =
+    1 << 18;  // keeps what many instances of large meshes take within 13 MB
 
 // Twice as many slots as vertices where a storage buffer can hold them: probes stay short.
 std::uint32_t weld_slots(const gpu::DeviceInfo& device, std::uint64_t vertices) {
@@ -60,6 +63,7 @@ GeometryBuilder::GeometryBuilder(gpu::Device& device)
       measure_transformed_(
           device.make_kernel("measure_triangles (transformed)", measure_triangles_spv, kTransformed)),
       combine_(device.make_kernel("combine_geometry", combine_geometry_spv)),
+      probe_instances_(device.make_kernel("probe_instances", probe_instances_spv)),
       bound_instances_(device.make_kernel("bound_instances", bound_instances_spv)) {}
 
 void GeometryBuilder::record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry,
@@ -102,30 +106,59 @@ Geometry GeometryBuilder::record(gpu::Recorder& recorder, const Batch& batch, do
 std::vector<std::array<double, 6>> GeometryBuilder::bound_instances(
     gpu::Device& device, const Geometry& geometry, std::span<const InstanceToBound> instances) const {
   std::vector<std::array<double, 6>> bounds;
-  for (std::size_t first = 0; first < instances.size(); first += kInstancesPerDispatch) {
-    const auto window = instances.subspan(first, std::min(kInstancesPerDispatch, instances.size() - first));
-    std::vector<InstanceRecord> records;
-    for (const InstanceToBound& instance : window) {
-      InstanceRecord record{};
-      std::copy_n(instance.world.begin(), record.world.size(), record.world.begin());
-      record.first_chunk = geometry.chunks.first_leaf(instance.mesh);
-      const std::uint32_t triangles = geometry.records[instance.mesh].triangle_count;
-      record.chunk_count = (triangles + interface::mesh::kChunkSize - 1) / interface::mesh::kChunkSize;
-      records.push_back(record);
+  std::vector<InstanceRecord> window;
+  std::uint32_t outputs = 0;
+  for (const InstanceToBound& instance : instances) {
+    InstanceRecord record{};
+    std::copy_n(instance.world.begin(), record.world.size(), record.world.begin());
+    const ChunkTree::Range blocks = geometry.chunks.blocks_of(instance.mesh);
+    record.first_block = blocks.first;
+    record.block_count = blocks.count;
+    if (!window.empty() && outputs + blocks.count > kBlocksPerDispatch) {
+      bound_window(device, geometry, window, outputs, bounds);
+      window.clear();
+      outputs = 0;
     }
-    gpu::Array<InstanceRecord> uploaded(device, "instances", records.size());
-    uploaded.upload(device, records);
-    gpu::Array<std::array<double, 6>> found(device, "instance bounds", records.size());
-    gpu::Recorder recorder(device);
-    recorder.run(bound_instances_, 6 * records.size(),
-                 InstanceBoundsParams{static_cast<std::uint32_t>(records.size())},
-                 {geometry.chunks.leaves(), geometry.meshes, geometry.position_x, geometry.position_y,
-                  geometry.position_z, geometry.corners, geometry.areas, geometry.totals, uploaded, found});
-    recorder.submit_and_wait();
-    const auto window_bounds = found.download(device);
-    bounds.insert(bounds.end(), window_bounds.begin(), window_bounds.end());
+    record.first_output = outputs;
+    outputs += blocks.count;
+    window.push_back(record);
   }
+  if (!window.empty()) bound_window(device, geometry, window, outputs, bounds);
   return bounds;
+}
+
+void GeometryBuilder::bound_window(gpu::Device& device, const Geometry& geometry,
+                                   std::span<const InstanceRecord> instances, std::uint32_t outputs,
+                                   std::vector<std::array<double, 6>>& bounds) const {
+  const auto count = static_cast<std::uint32_t>(instances.size());
+  gpu::Array<InstanceRecord> records(device, "instances", count);
+  records.upload(device, instances);
+  gpu::Array<double> reached(device, "reached by instances", 6 * std::uint64_t{count});
+  gpu::Array<double> by_block(device, "bounds of blocks", 6 * std::uint64_t{outputs});
+  const ChunkTree& chunks = geometry.chunks;
+  const InstanceBoundsParams params{
+      .instance_count = count, .output_count = outputs, .first_block = chunks.block_offset()};
+  gpu::Recorder recorder(device);
+  recorder.run(probe_instances_, 6 * std::uint64_t{count}, params,
+               {chunks.leaves(), chunks.blocks(), geometry.meshes, geometry.position_x, geometry.position_y,
+                geometry.position_z, geometry.corners, geometry.areas, geometry.totals, records, reached});
+  recorder.run(
+      bound_instances_, 6 * std::uint64_t{outputs}, params,
+      {chunks.leaves(), chunks.blocks(), geometry.meshes, geometry.position_x, geometry.position_y,
+       geometry.position_z, geometry.corners, geometry.areas, geometry.totals, records, reached, by_block});
+  recorder.submit_and_wait();
+  const std::vector<double> found = by_block.download(device);
+  for (const InstanceRecord& instance : instances) {
+    std::array<double, 6> best;
+    best.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 6 * std::size_t{instance.first_output},
+                     end = i + 6 * std::size_t{instance.block_count};
+         i < end; ++i)
+      best[i % 6] = std::max(best[i % 6], found[i]);
+    // Lower sides were looked for as maxima of negated coordinates.
+    for (const std::size_t lower : {0, 2, 4}) best[lower] = -best[lower];
+    bounds.push_back(best);
+  }
 }
 
 }  // namespace scene_analyzer::geometry

@@ -75,9 +75,9 @@ class GeometryBuilder {
   // distance (local units, transitive) are welded on the host first.
   Geometry record(gpu::Recorder& recorder, const Batch& batch, double weld_tolerance = 0) const;
 
-  // Bounds of kept triangles in the world, per instance {min x, max x, min y, max y, min z, max z}; min > max
-  // without a kept triangle. Runs to completion. Cost: instances x (triangles / kChunkSize), not instances x
-  // triangles.
+  // Bounds of kept triangles in the world, per instance {min x, max x, min y, max y, min z, max z}; their
+  // meshes must have a kept triangle. Runs to completion. Cost: instances x (triangles / kChunkSize^2) and a
+  // few chunks each, not instances x triangles.
   std::vector<std::array<double, 6>> bound_instances(gpu::Device& device, const Geometry& geometry,
                                                      std::span<const InstanceToBound> instances) const;
 
@@ -85,8 +85,12 @@ class GeometryBuilder {
   void record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry,
                           const gpu::Array<std::uint32_t>& representative) const;
 
+  void bound_window(gpu::Device& device, const Geometry& geometry,
+                    std::span<const interface::geometry::InstanceRecord> instances, std::uint32_t outputs,
+                    std::vector<std::array<double, 6>>& bounds) const;
+
   gpu::Kernel weld_vertices_, resolve_welds_, weld_corners_, measure_, measure_transformed_, combine_,
-      bound_instances_;
+      probe_instances_, bound_instances_;
 };
 
 }  // namespace scene_analyzer::geometry

@@ -107,9 +107,9 @@ class BatchRun {
   void measure_geometry() {
     gpu::Recorder recorder(stages_.device);
     geometry_ = stages_.geometry.record(recorder, plan_.batch, parameters_.weld_tolerance);
-    adjacency_ = stages_.adjacency.record(recorder, geometry_);
+    auto matching = stages_.adjacency.record_matching(recorder, geometry_);
     recorder.submit_and_wait();
-    stages_.adjacency.index_shared(stages_.device, geometry_, adjacency_);
+    adjacency_ = stages_.adjacency.complete(stages_.device, geometry_, std::move(matching));
     totals_ = geometry_.results(stages_.device);
     const auto topology = geometry_.chunks.results(stages_.device, adjacency_.totals);
     for (std::size_t mesh = 0; mesh < totals_.size(); ++mesh) {

@@ -1,0 +1,18 @@
+// edge_table.glsl — Where an edge may lie in the table of half-edges.
+//
+// The first slots tried lie at a place proportional to the lower vertex: files list neighbours near each other, so these probes hit the cache. A
+// vertex with very many edges would fill its surroundings; after kLocalProbes the search goes on at a random place.
+#ifndef SCENE_ANALYZER_LIB_EDGE_TABLE
+#define SCENE_ANALYZER_LIB_EDGE_TABLE
+#include "compute/lib/hashing.glsl"
+
+uint first_slot(uvec2 edge, uint slots, double slots_per_vertex) {
+  return min(uint(double(edge.x) * slots_per_vertex), slots - 1);
+}
+
+uint next_slot(uint slot, uint probes, uvec2 edge, uint slots) {
+  return probes == kLocalProbes ? scale_to(scramble(edge.x ^ scramble(edge.y)), slots)
+                                : (slot + 1 == slots ? 0 : slot + 1);
+}
+
+#endif

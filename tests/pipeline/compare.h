@@ -1,0 +1,81 @@
+// compare.h — Measured analyses against the plain twin: counts equal, ratings within 1e-5, as promised to
+// users.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "analysis/analysis.h"
+#include "mesh/scene.h"
+#include "pipeline/batching.h"
+#include "reference/evaluate.h"
+#include "reference/placement.h"
+
+namespace scene_analyzer::pipeline {
+
+inline void expect_near(const std::optional<double>& found, const std::optional<double>& expected,
+                        double tolerance) {
+  ASSERT_EQ(found.has_value(), expected.has_value());
+  if (found) {
+    EXPECT_NEAR(*found, *expected, tolerance);
+  }
+}
+
+inline void expect_same_measures(const analysis::GeometryAnalysis& found,
+                                 const analysis::GeometryAnalysis& expected) {
+  EXPECT_EQ(found.source_triangles, expected.source_triangles);
+  EXPECT_EQ(found.degenerate_triangles, expected.degenerate_triangles);
+  EXPECT_EQ(found.triangles, expected.triangles);
+  EXPECT_EQ(found.source_triangles, found.triangles + found.degenerate_triangles);
+  EXPECT_NEAR(found.surface_area, expected.surface_area, 1e-9 * expected.surface_area);
+  expect_near(found.polygons_per_planar_group, expected.polygons_per_planar_group, 1e-5);
+  expect_near(found.planar_group_variation, expected.planar_group_variation, 1e-5);
+  expect_near(found.cooccurrence_contrast, expected.cooccurrence_contrast, 1e-5);
+  if (found.source_triangles == 0) return;  // in no batch: nothing was counted
+  EXPECT_EQ(found.planar_groups, expected.planar_groups);
+  EXPECT_EQ(found.largest_planar_group, expected.largest_planar_group);
+  EXPECT_EQ(found.components, expected.components);
+  EXPECT_EQ(found.isolated_triangles, expected.isolated_triangles);
+  EXPECT_EQ(found.non_manifold_edges, expected.non_manifold_edges);
+  EXPECT_EQ(found.boundary_edges, expected.boundary_edges);
+  EXPECT_EQ(found.area_classes, expected.area_classes);
+}
+
+inline void expect_same_bounds(const std::optional<analysis::Bounds>& found,
+                               const std::optional<analysis::Bounds>& expected) {
+  ASSERT_EQ(found.has_value(), expected.has_value());
+  if (!found) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double scale = std::max(std::abs(expected->min[axis]), std::abs(expected->max[axis]));
+    EXPECT_NEAR(found->min[axis], expected->min[axis], 1e-12 * scale);
+    EXPECT_NEAR(found->max[axis], expected->max[axis], 1e-12 * scale);
+  }
+}
+
+inline void expect_agrees_with_twin(const mesh::Scene& scene, const analysis::Parameters& parameters,
+                                    const analysis::AssetAnalysis& found) {
+  ASSERT_EQ(found.instances.size(), scene.instances.size());
+  std::vector<std::optional<reference::Evaluation>> twins(found.geometries.size());
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const analysis::InstanceAnalysis& instance = found.instances[i];
+    const mesh::TriangleMesh& mesh = scene.meshes[scene.instances[i].mesh];
+    SCOPED_TRACE(testing::Message() << scene.asset << ": node " << instance.node << ", mesh " << mesh.name);
+    const reference::Placement placement = reference::placement_of(scene.instances[i].world);
+    EXPECT_NEAR(instance.area_scale, placement.area_scale, 1e-12 * placement.area_scale);
+    auto& twin = twins[instance.geometry];
+    if (!twin) {
+      twin = reference::evaluate_stages(mesh.positions, mesh.indices, placement.linear, parameters);
+      expect_same_measures(found.geometries[instance.geometry],
+                           reference::summarize(*twin, placement.linear));
+    }
+    // The box is that of local coordinates under the whole matrix.
+    const reference::Geometry geometry{mesh.positions, mesh.indices, twin->representative, placement.linear};
+    expect_same_bounds(instance.bounds,
+                       reference::world_bounds(geometry, twin->triangles, scene.instances[i].world));
+  }
+}
+
+}  // namespace scene_analyzer::pipeline

@@ -1,0 +1,188 @@
+// The whole recipe on the device against the plain double-precision twin, mesh by mesh.
+#include "pipeline/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "pipeline/compare.h"
+#include "pipeline/geometry_table.h"
+#include "reference/placement.h"
+#include "support/gpu_test.h"
+#include "support/scenes.h"
+
+namespace scene_analyzer::pipeline {
+namespace {
+
+using analysis::AssetAnalysis;
+using analysis::MetricSet;
+using test_meshes::TestMesh;
+
+class MeasureTest : public test::GpuTest {
+ protected:
+  AssetAnalysis measure(const mesh::Scene& scene, const analysis::Parameters& parameters = {},
+                        MetricSet metrics = MetricSet().set()) {
+    AssetAnalysis analysis;
+    measurer().measure(scene, parameters, metrics, {}, analysis);
+    return analysis;
+  }
+
+  void compare(std::vector<TestMesh> meshes, const analysis::Parameters& parameters = {}) {
+    const mesh::Scene scene = test::scene_of(std::move(meshes));
+    expect_agrees_with_twin(scene, parameters, measure(scene, parameters));
+  }
+
+  Measurer& measurer() {
+    static auto& kept = *new Measurer(device());
+    return kept;
+  }
+};
+
+TEST_F(MeasureTest, TheCatalogueInOneBatch) {
+  compare(test_meshes::small_catalogue());
+}
+
+TEST_F(MeasureTest, OtherParameters) {
+  analysis::Parameters parameters;
+  parameters.alpha_degrees = 12;
+  parameters.dim = 7;
+  compare(test_meshes::small_catalogue(), parameters);
+}
+
+TEST_F(MeasureTest, WeldTolerance) {
+  analysis::Parameters parameters;
+  parameters.weld_tolerance = 0.05;
+  compare({test_meshes::unwelded(test_meshes::geosphere(4)), test_meshes::heightfield(12, 0.3, 1),
+           test_meshes::signed_zeros(), test_meshes::non_finite(2), test_meshes::prism(10, 1, 0.03, 0.4)},
+          parameters);
+}
+
+TEST_F(MeasureTest, RandomSoups) {
+  std::vector<TestMesh> meshes;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto triangles = static_cast<std::uint32_t>(1 + seed * seed * 3);
+    meshes.push_back(test_meshes::indexed_soup(static_cast<std::uint32_t>(4 + seed * 5), triangles, seed));
+    meshes.push_back(test_meshes::lattice_soup(3, triangles, seed));
+  }
+  compare(meshes);
+}
+
+TEST_F(MeasureTest, ShuffledMeshesRateTheSame) {
+  std::vector<TestMesh> meshes = test_meshes::small_catalogue(), shuffled;
+  for (const TestMesh& mesh : meshes) shuffled.push_back(test_meshes::shuffled(mesh, 11));
+  const AssetAnalysis one = measure(test::scene_of(meshes)), other = measure(test::scene_of(shuffled));
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    SCOPED_TRACE(meshes[i].name);
+    expect_same_measures(one.geometries[i], other.geometries[i]);
+  }
+}
+
+TEST_F(MeasureTest, RerunsGiveTheSameBits) {
+  const mesh::Scene scene = test::scene_of(test_meshes::small_catalogue());
+  const AssetAnalysis one = measure(scene), other = measure(scene);
+  for (std::size_t i = 0; i < one.geometries.size(); ++i) {
+    EXPECT_EQ(one.geometries[i].surface_area, other.geometries[i].surface_area);
+    EXPECT_EQ(one.geometries[i].planar_group_variation, other.geometries[i].planar_group_variation);
+    EXPECT_EQ(one.geometries[i].cooccurrence_contrast, other.geometries[i].cooccurrence_contrast);
+  }
+}
+
+TEST_F(MeasureTest, MillionTrianglesOnOneEdge) {
+  compare({test_meshes::book(1'000'000, 3)});
+}
+
+TEST_F(MeasureTest, TwentyThousandTinyMeshes) {
+  std::vector<TestMesh> meshes(20'000, test_meshes::cube());
+  const AssetAnalysis analysis = measure(test::scene_of(std::move(meshes)));
+  for (const auto& geometry : analysis.geometries) {
+    ASSERT_EQ(geometry.triangles, 12U);
+    ASSERT_EQ(geometry.planar_groups, 6U);
+    ASSERT_NEAR(*geometry.polygons_per_planar_group, 6.0 / 11, 1e-12);
+  }
+}
+
+TEST_F(MeasureTest, AMeshWithoutTrianglesOrWithDegenerateOnesKeepsItsRow) {
+  const AssetAnalysis analysis = measure(test::scene_of({TestMesh{}, test_meshes::all_degenerate()}));
+  ASSERT_EQ(analysis.instances.size(), 2U);
+  for (const auto& geometry : analysis.geometries) {
+    EXPECT_EQ(geometry.triangles, 0U);
+    EXPECT_EQ(geometry.polygons_per_planar_group, std::nullopt);
+    EXPECT_EQ(geometry.cooccurrence_contrast, std::nullopt);
+  }
+  EXPECT_EQ(analysis.instances[0].bounds, std::nullopt);
+  EXPECT_EQ(analysis.instances[1].bounds, std::nullopt);
+  EXPECT_GT(analysis.geometries[1].degenerate_triangles, 0U);
+}
+
+TEST_F(MeasureTest, OnlyWhatIsAskedForIsComputed) {
+  const mesh::Scene scene = test::scene_of({test_meshes::cube()});
+  const AssetAnalysis analysis = measure(scene, {}, MetricSet().set(index_of(analysis::Metric::kDistance)));
+  EXPECT_EQ(analysis.geometries[0].planar_groups, std::nullopt);
+  EXPECT_EQ(analysis.geometries[0].area_classes, std::nullopt);
+  EXPECT_EQ(analysis.geometries[0].triangles, 12U);
+  EXPECT_TRUE(analysis.instances[0].bounds.has_value());
+}
+
+// --- Placement: instances, mirrored and non-uniform nodes, far origins. ---
+
+mesh::Matrix4 placed(const mesh::Matrix3& linear, const mesh::Vector3& offset) {
+  return {linear[0], linear[1], linear[2], offset[0], linear[3], linear[4], linear[5], offset[1],
+          linear[6], linear[7], linear[8], offset[2], 0,         0,         0,         1};
+}
+
+mesh::Scene placed_scene(const TestMesh& mesh, const std::vector<mesh::Matrix4>& worlds) {
+  mesh::Scene scene = test::scene_of({mesh});
+  scene.instances.clear();
+  for (const mesh::Matrix4& world : worlds)
+    scene.instances.push_back({.mesh = 0, .node = "node", .world = world});
+  return scene;
+}
+
+TEST_F(MeasureTest, SimilaritiesShareOneGeometryOthersAreTransformed) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  const mesh::Scene scene = placed_scene(
+      test_meshes::torus(24, 12),
+      {placed({1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}),
+       placed({3 * c, -3 * s, 0, 3 * s, 3 * c, 0, 0, 0, 3}, {5, 6, 7}),
+       placed({-2, 0, 0, 0, 2, 0, 0, 0, 2}, {-100, 0, 0}), placed({1, 0.5, 0, 0, 1, 0, 0, 0, 4}, {1e6, 0, 0}),
+       placed({1, 0.5, 0, 0, 1, 0, 0, 0, 4}, {2e6, 0, 0}), placed({1, 0, 0, 0, 1, 0, 0, 0, 0}, {0, 0, 0})});
+  const AssetAnalysis analysis = measure(scene);
+  ASSERT_EQ(analysis.geometries.size(), 3U);  // similarities, the sheared one twice, the flattened one
+  EXPECT_NEAR(analysis.instances[1].area_scale, 9, 1e-12);
+  EXPECT_NEAR(analysis.instances[2].area_scale, 4, 1e-12);
+  EXPECT_EQ(analysis.instances[3].geometry, analysis.instances[4].geometry);
+  expect_agrees_with_twin(scene, {}, analysis);
+}
+
+TEST_F(MeasureTest, AThousandNodesShowOneMesh) {
+  std::vector<mesh::Matrix4> worlds;
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 0.01 * i;
+    worlds.push_back(
+        placed({std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1},
+               {2.0 * i, 0, 0}));
+  }
+  const mesh::Scene scene = placed_scene(test_meshes::geosphere(8), worlds);
+  const AssetAnalysis analysis = measure(scene);
+  EXPECT_EQ(analysis.geometries.size(), 1U);
+  expect_agrees_with_twin(scene, {}, analysis);
+}
+
+TEST_F(MeasureTest, AMeshBeyondTheDeviceIsReportedWithNeedAndLimit) {
+  gpu::DeviceInfo small;
+  small.name = "a small device";
+  small.max_storage_buffer_bytes = 1024;
+  small.free_memory_bytes = std::uint64_t{1} << 30;
+  const mesh::Scene scene = test::scene_of({test_meshes::geosphere(8), test_meshes::cube()});
+  GeometryTable table = make_geometry_table(scene);
+  const auto batches = plan_batches(scene, small, table.geometries);
+  ASSERT_EQ(batches.size(), 1U);
+  EXPECT_EQ(batches[0].geometries, std::vector<std::uint32_t>{1});
+  EXPECT_NE(table.geometries[0].not_analysed.find("1280 triangles"), std::string::npos);
+  EXPECT_NE(table.geometries[0].not_analysed.find("1024 bytes"), std::string::npos);
+  EXPECT_EQ(table.geometries[1].not_analysed, "");
+}
+
+}  // namespace
+}  // namespace scene_analyzer::pipeline
