@@ -1,10 +1,10 @@
 #include "cooccurrence/class_limit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
-#include <queue>
-#include <tuple>
+#include <utility>
 
 namespace scene_analyzer::cooccurrence {
 namespace {
@@ -46,10 +46,13 @@ DoubleDouble divided(DoubleDouble a, double b) {
   return two_sum(quotient, rest / b);
 }
 
-double rounded(double cost) {
-  int exponent = 0;
-  const double mantissa = std::frexp(cost, &exponent);
-  return std::ldexp(std::nearbyint(std::ldexp(mantissa, kSignificantBits)), exponent - kSignificantBits);
+// A cost rounded to 20 significant bits (half to even), as an integer that orders like it: sign, exponent and
+// the 19 bits of the mantissa behind its leading one. `cost` is not negative.
+std::uint32_t rounded(double cost) {
+  constexpr int kDropped = 53 - kSignificantBits;
+  const auto bits = std::bit_cast<std::uint64_t>(cost);
+  const std::uint64_t half = (std::uint64_t{1} << (kDropped - 1)) - 1 + ((bits >> kDropped) & 1);
+  return static_cast<std::uint32_t>((bits + half) >> kDropped);
 }
 
 class UnionCost {
@@ -64,7 +67,7 @@ class UnionCost {
 
   // Rounded sum |value - mean| over [first, end). Values above and below the mean deviate by the same sum in
   // total.
-  double operator()(std::uint32_t first, std::uint32_t end) const {
+  std::uint32_t operator()(std::uint32_t first, std::uint32_t end) const {
     return rounded(end - first <= kFewValues ? of_few(first, end) : of_many(first, end));
   }
 
@@ -91,13 +94,58 @@ class UnionCost {
   std::vector<DoubleDouble> prefix_;
 };
 
-// A pair of neighbouring groups [first, ...) and [..., end) as it was when it entered the heap.
+// A pair of neighbouring groups [first, ...) and [..., end) as it was when it entered the queue.
 struct Pair {
-  double cost;
-  std::uint32_t first, end;
+  std::uint32_t cost, first, end;
   bool operator>(const Pair& other) const {
-    return std::tie(cost, first) > std::tie(other.cost, other.first);
+    return cost != other.cost ? cost > other.cost : first > other.first;
   }
+};
+
+// Hands out pairs by cost, then place. Joining never makes a union cheaper, so costs that are handed out do
+// not fall: pairs wait unsorted in buckets of nearly equal costs, and only the bucket being emptied is a
+// heap, small enough for the cache.
+class PairQueue {
+ public:
+  explicit PairQueue(const std::vector<Pair>& pairs) {
+    const auto cheaper = [](const Pair& a, const Pair& b) { return a.cost < b.cost; };
+    base_ = bucket_of(*std::min_element(pairs.begin(), pairs.end(), cheaper));
+    for (const Pair& pair : pairs) push(pair);
+  }
+
+  void push(const Pair& pair) {
+    // Rounding may let a union come out a last bit cheaper than a part of it: then it is next.
+    const std::int64_t bucket = std::max(bucket_of(pair) - base_, open_);
+    if (bucket == open_) {
+      heap_.push_back(pair);
+      std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
+      return;
+    }
+    if (bucket >= static_cast<std::int64_t>(buckets_.size()))
+      buckets_.resize(static_cast<std::size_t>(bucket) + 1);
+    buckets_[static_cast<std::size_t>(bucket)].push_back(pair);
+  }
+
+  // There must be a pair left.
+  Pair pop() {
+    while (heap_.empty()) {
+      heap_ = std::exchange(buckets_[static_cast<std::size_t>(++open_)], {});
+      std::make_heap(heap_.begin(), heap_.end(), std::greater<>{});
+    }
+    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
+    const Pair pair = heap_.back();
+    heap_.pop_back();
+    return pair;
+  }
+
+ private:
+  static constexpr int kBucketBits = 9;  // costs within about 2^-10 of each other share a bucket
+  static std::int64_t bucket_of(const Pair& pair) { return pair.cost >> kBucketBits; }
+
+  std::int64_t base_ = 0;
+  std::int64_t open_ = -1;
+  std::vector<std::vector<Pair>> buckets_;
+  std::vector<Pair> heap_;
 };
 
 // Groups as ranges of values: end_of[first] for each group's first value, before[first] the first value of
@@ -136,18 +184,18 @@ std::vector<double> limit_classes(std::span<const double> values, std::uint64_t 
   Groups groups(static_cast<std::uint32_t>(values.size()));
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i + 1 < groups.count(); ++i) pairs.push_back({cost(i, i + 2), i, i + 2});
-  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> heap(std::greater<>{}, std::move(pairs));
+  PairQueue queue(pairs);
+  pairs = {};
   for (std::uint64_t left = values.size(); left > limit;) {
-    const Pair pair = heap.top();
-    heap.pop();
+    const Pair pair = queue.pop();
     if (!groups.is_current(pair)) continue;
     groups.join(pair);
     --left;
     if (pair.end < groups.count())
-      heap.push({cost(pair.first, groups.end(pair.end)), pair.first, groups.end(pair.end)});
+      queue.push({cost(pair.first, groups.end(pair.end)), pair.first, groups.end(pair.end)});
     if (pair.first > 0) {
       const std::uint32_t before = groups.before(pair.first);
-      heap.push({cost(before, pair.end), before, pair.end});
+      queue.push({cost(before, pair.end), before, pair.end});
     }
   }
   for (std::uint32_t first = 0; first < groups.count(); first = groups.end(first)) {
