@@ -148,6 +148,8 @@ TEST(ImportGltf, SparseValuesReplaceWhatTheyStandFor) {
       {"values", {{"bufferView", 0}, {"byteOffset", 12}}}};
   const mesh::Scene scene = scene_of(quad);
   EXPECT_THAT(scene.meshes.at(0).positions, ElementsAre(0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0));
+  quad.root["accessors"][0].erase("bufferView");
+  EXPECT_THAT(scene_of(quad).meshes.at(0).positions, ElementsAre(0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0));
   quad.root["accessors"][0]["sparse"]["count"] = 5;
   EXPECT_THAT(refusal_of(quad), HasSubstr("replaces more elements"));
 }
@@ -219,7 +221,7 @@ TEST(ImportGltf, SkinsWithoutMatricesAreReadInTheirRestPose) {
 TEST(ImportGltf, BrokenContainers) {
   const std::string whole = QuadGltf().binary();
   const TempFolder folder;
-  for (std::size_t size = 1; size < whole.size(); ++size)
+  for (std::size_t size = 1; size < whole.size(); size += size < 32 ? 1 : 7)
     EXPECT_NE(refusal(folder.write("cut.glb", whole.substr(0, size))), "") << size;
   EXPECT_EQ(refusal(folder.write("whole.glb", whole)), "");
   const mesh::Scene longer = import_asset(folder.write("longer.glb", whole + std::string(100, 'x')));

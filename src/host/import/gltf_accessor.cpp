@@ -148,10 +148,10 @@ GltfAccessors::Accessor GltfAccessors::look_up(std::uint64_t number, bool compre
   accessor.sparse = sparse != entry.end();
   if (accessor.sparse) check_sparse(*sparse, accessor, name);
   if (compressed) return accessor;
-  if (!entry.contains("bufferView"))
-    throw InputError(name + (accessor.sparse
-                                 ? " starts from zeros and replaces some, which Assimp reads wrongly"
-                                 : " has no data"));
+  if (!entry.contains("bufferView")) {
+    if (!accessor.sparse) throw InputError(name + " has no data");
+    return accessor;  // zeros but for what is replaced
+  }
   accessor.data =
       elements(whole_number(entry, "bufferView", name), whole_number(entry, "byteOffset", 0, name),
                accessor.count, bytes_each, accessor.stride, name);
