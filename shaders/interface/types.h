@@ -1,6 +1,6 @@
 // types.h — One language for parameter structs: included by GLSL and by C++.
 //
-// In GLSL blocks are declared `scalar`, so both sides have the same layout by rule; tests/gpu compares every
+// In GLSL blocks are declared `scalar`, so both sides have the same layout by rule; tests/interface compares
 // member's offset in the SPIR-V with offsetof.
 #ifndef SCENE_ANALYZER_INTERFACE_TYPES_H
 #define SCENE_ANALYZER_INTERFACE_TYPES_H

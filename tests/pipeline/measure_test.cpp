@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gpu/faults.h"
 #include "pipeline/compare.h"
 #include "pipeline/geometry_table.h"
 #include "reference/placement.h"
@@ -167,6 +168,31 @@ TEST_F(MeasureTest, AThousandNodesShowOneMesh) {
   const AssetAnalysis analysis = measure(scene);
   EXPECT_EQ(analysis.geometries.size(), 1U);
   expect_agrees_with_twin(scene, {}, analysis);
+}
+
+TEST_F(MeasureTest, WhenMemoryRunsOutMeshesGetTheDeviceForThemselves) {
+  const mesh::Scene scene =
+      test::scene_of({test_meshes::cube(), test_meshes::torus(12, 8), test_meshes::grid(5, 5)});
+  measure(scene);  // kernels are made
+  for (const std::uint32_t allocations : {0U, 5U, 20U, 30U}) {
+    gpu::faults(device()).allocations_until_failure = allocations;
+    expect_agrees_with_twin(scene, {}, measure(scene));
+  }
+}
+
+TEST_F(MeasureTest, AMeshThatDoesNotFitIsReportedAndTheOthersAreMeasured) {
+  mesh::Scene scene = test::scene_of({test_meshes::cube(), test_meshes::torus(12, 8)});
+  scene.instances[1].world =
+      placed({1, 0.5, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0});  // a batch of its own, the second
+  measure(scene);
+  gpu::faults(device()).allocations_until_failure = 3;
+  const AssetAnalysis analysis = measure(scene);
+  EXPECT_NE(analysis.geometries[0].not_analysed, "");
+  EXPECT_EQ(analysis.geometries[0].triangles, 0U);
+  EXPECT_EQ(analysis.geometries[0].planar_groups, std::nullopt);
+  EXPECT_EQ(analysis.instances[0].bounds, std::nullopt);
+  EXPECT_EQ(analysis.geometries[1].not_analysed, "");
+  EXPECT_EQ(analysis.geometries[1].triangles, 192U);
 }
 
 TEST_F(MeasureTest, AMeshBeyondTheDeviceIsReportedWithNeedAndLimit) {

@@ -9,6 +9,7 @@
 #include "cooccurrence/area_classes.h"
 #include "cooccurrence/contrast.h"
 #include "geometry/geometry.h"
+#include "gpu/error.h"
 #include "pipeline/batching.h"
 #include "pipeline/geometry_table.h"
 #include "planar_groups/planar_groups.h"
@@ -188,6 +189,33 @@ class BatchRun {
 Measurer::Measurer(gpu::Device& device) : stages_(std::make_unique<Stages>(device)) {}
 Measurer::~Measurer() = default;
 
+void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameters& parameters,
+                             analysis::MetricSet metrics, const std::function<void(const char*)>& step,
+                             analysis::AssetAnalysis& analysis) {
+  try {
+    BatchRun(*stages_, plan, parameters, metrics, analysis).run(step);
+  } catch (const gpu::OutOfMemory& error) {
+    // The estimate was too low: meshes with many shared edges need more. Each mesh gets the device for
+    // itself; one that still does not fit is reported, and the others keep their results.
+    if (plan.geometries.size() == 1) {
+      GeometryAnalysis& geometry = analysis.geometries[plan.geometries.front()];
+      GeometryAnalysis untouched;
+      untouched.mesh = geometry.mesh;
+      untouched.linear = geometry.linear;
+      untouched.source_triangles = geometry.source_triangles;
+      untouched.not_analysed = error.what();
+      geometry = std::move(untouched);
+      for (analysis::InstanceAnalysis& instance : analysis.instances)
+        if (instance.geometry == plan.geometries.front()) instance.bounds = std::nullopt;
+      return;
+    }
+    for (std::size_t i = 0; i < plan.geometries.size(); ++i)
+      measure_batch({.batch = {.meshes = {plan.batch.meshes[i]}, .transformed = plan.batch.transformed},
+                     .geometries = {plan.geometries[i]}},
+                    parameters, metrics, step, analysis);
+  }
+}
+
 void Measurer::measure(const mesh::Scene& scene, const analysis::Parameters& parameters,
                        analysis::MetricSet metrics, const Progress& progress,
                        analysis::AssetAnalysis& analysis) {
@@ -200,11 +228,12 @@ void Measurer::measure(const mesh::Scene& scene, const analysis::Parameters& par
   for (const PlannedBatch& plan : batches) {
     const std::uint64_t here = plan.batch.triangle_count();
     unsigned steps = 0;
-    BatchRun(*stages_, plan, parameters, metrics, analysis).run([&](const char* step) {
+    const auto report = [&](const char* step) {
       constexpr double kSteps = 4;
       const double within = std::min(steps++, 3U) / kSteps * static_cast<double>(here);
       if (progress) progress((static_cast<double>(done) + within) / static_cast<double>(all), step);
-    });
+    };
+    measure_batch(plan, parameters, metrics, report, analysis);
     done += here;
   }
 }

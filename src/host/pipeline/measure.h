@@ -15,6 +15,8 @@
 
 namespace scene_analyzer::pipeline {
 
+struct PlannedBatch;
+
 // Called between steps: fraction done of the current asset in [0,1] and what is being done ("planar groups").
 using Progress = std::function<void(double fraction, const std::string& step)>;
 
@@ -24,15 +26,19 @@ class Measurer {
   ~Measurer();
 
   // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds
-  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit. Throws
-  // gpu::DeviceLost, gpu::OutOfMemory. Cost: linear in triangles but for sorting areas; device memory under
-  // 200 bytes per triangle.
+  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit.
+  // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes per
+  // triangle (about 250 where all edges have more than two triangles).
   void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
                const Progress& progress, analysis::AssetAnalysis& analysis);
 
   struct Stages;  // kernels of every stage
 
  private:
+  void measure_batch(const PlannedBatch& plan, const analysis::Parameters& parameters,
+                     analysis::MetricSet metrics, const std::function<void(const char*)>& step,
+                     analysis::AssetAnalysis& analysis);
+
   std::unique_ptr<Stages> stages_;
 };
 
