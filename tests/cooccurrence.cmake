@@ -1,1 +1,2 @@
-test_binary(cooccurrence SOURCES cooccurrence_test.cpp LINK cooccurrence reference test_meshes LABELS gpu)
+test_binary(cooccurrence SOURCES cooccurrence_test.cpp histogram_test.cpp
+            LINK cooccurrence reference test_meshes LABELS gpu)

@@ -47,10 +47,52 @@ struct SharedValueParams {
   uint count;  // shared half-edges
 };
 
-struct BinParams {
+// Histograms. A triangle's label is its row and column: the bin of its attribute, or the number of its
+// attribute among the distinct ones of the batch.
+struct LabelParams {
+  uint triangles;
+};
+
+// Half-edges of shared edges sorted by key = begin of their edge << label_bits | label; equal keys form a
+// run.
+struct SharedLabelParams {
+  uint count;  // shared half-edges
+  uint label_bits;
+};
+
+struct SortedKeysParams {
+  uint count;
+};
+
+struct MeshRunParams {
+  uint count;   // shared half-edges
+  uint meshes;  // of the batch; one thread more writes the end
+};
+
+struct NeighbourBinParams {
+  uint first;       // half-edge
+  uint count;       // half-edges
   uint first_mesh;  // histogram 0 belongs to this mesh
-  uint chunk_first;
-  uint chunk_count;
+};
+
+struct RunBinParams {
+  uint first;  // run
+  uint count;  // runs
+  uint label_bits;
+  uint first_mesh;
+};
+
+struct RunPairParams {
+  uint runs;
+  uint label_bits;
+};
+
+// A window of half-edges, or of pairs of runs.
+struct PairParams {
+  uint first;
+  uint count;
+  uint runs;  // where pairs of runs are listed
+  uint label_bits;
 };
 
 INTERFACE_END
