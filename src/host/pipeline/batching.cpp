@@ -41,7 +41,11 @@ bool fits(const geometry::Batch& batch, const mesh::TriangleMesh& mesh, const gp
 }  // namespace
 
 std::uint64_t memory_needed(std::uint64_t vertices, std::uint64_t triangles) {
-  return 24 * vertices + 128 * triangles + (std::uint64_t{1} << 20);
+  // Positions and corners are there throughout. The peak is either while vertices are welded and half-edges
+  // matched, or while areas are sorted into classes.
+  const std::uint64_t while_matching = 24 * vertices + 52 * triangles;
+  const std::uint64_t while_sorting = 12 * vertices + 96 * triangles;
+  return std::max(while_matching, while_sorting) + (std::uint64_t{1} << 20);
 }
 
 std::vector<PlannedBatch> plan_batches(const mesh::Scene& scene, const gpu::DeviceInfo& device,
