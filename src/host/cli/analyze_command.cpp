@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "analysis_file/analysis_file.h"
@@ -14,6 +15,7 @@
 #include "base/version.h"
 #include "cli/analyze_options.h"
 #include "cli/exit_code.h"
+#include "cli/histogram_files.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
 #include "cli/progress.h"
@@ -44,7 +46,7 @@ bool measuring_is_likely(const AnalyzeRequest& request) {
   return std::ranges::any_of(request.assets, [&](const std::string& asset) {
     std::error_code ignored;
     if (!fs::is_regular_file(asset, ignored)) return false;
-    return !request.pipeline.use_analysis_files ||
+    return !request.pipeline.use_analysis_files || request.histograms ||
            !fs::exists(analysis_file::path_for(asset, request.pipeline.cache_folder), ignored);
   });
 }
@@ -75,10 +77,32 @@ pipeline::Outcome analyze_one(pipeline::Pipeline& pipeline, const std::string& a
   return outcome;
 }
 
+// Whether all files could be written.
+bool log_histograms(HistogramFiles& files) {
+  for (const std::string& warning : files.take_warnings()) log_warning(warning);
+  const auto errors = files.take_errors();
+  for (const std::string& error : errors) log_error(error);
+  return errors.empty();
+}
+
+pipeline::Options pipeline_options(const AnalyzeRequest& request, std::optional<HistogramFiles>& files) {
+  pipeline::Options options = request.pipeline;
+  if (files)
+    options.histograms = [&files](const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
+                                  const analysis::Histogram& histogram) {
+      files->write(analysis, geometry, histogram);
+    };
+  return options;
+}
+
 Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
   Analyses result;
-  pipeline::Pipeline pipeline(request.pipeline, [&]() -> gpu::Device& { return device.get(); });
+  std::optional<HistogramFiles> histograms;
+  if (request.histograms) histograms.emplace(*request.histograms);
+  pipeline::Pipeline pipeline(pipeline_options(request, histograms),
+                              [&]() -> gpu::Device& { return device.get(); });
   if (measuring_is_likely(request)) device.start();
+  std::size_t rows = 0;
   Progress progress(request.log != LogLevel::kQuiet, request.assets.size());
   constexpr std::size_t kFailed = static_cast<std::size_t>(-1);
   std::map<fs::path, std::size_t> seen;  // file -> index in result.assets
@@ -88,7 +112,10 @@ Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
     progress.start_asset(i, fs::path(asset).filename().string());
     const auto [entry, is_new] = seen.try_emplace(identity(asset), kFailed);
     if (is_new) {
+      if (histograms) histograms->start_asset(rows);
       pipeline::Outcome outcome = analyze_one(pipeline, asset, progress);
+      if (histograms)
+        progress.aside([&] { result.all_good = log_histograms(*histograms) && result.all_good; });
       if (outcome.analysis) {
         entry->second = result.assets.size();
         result.all_good = result.all_good && !beyond_a_limit(*outcome.analysis);
@@ -100,6 +127,7 @@ Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
       result.assets.push_back(std::move(copy));
     }
     result.all_good = result.all_good && entry->second != kFailed;
+    if (entry->second != kFailed) rows += result.assets.back().instances.size();
   }
   return result;
 }

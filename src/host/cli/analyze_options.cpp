@@ -54,7 +54,11 @@ cxxopts::Options make_options() {
       "relative", "map each metric from its range within the scene to its whole range before aggregating");
   options.add_options("Output")("json", "write JSON to FILE, or to standard output in place of the table (-)",
                                 text(), "FILE|-")(
-      "csv", "write CSV to FILE, or to standard output in place of the table (-)", text(), "FILE|-");
+      "csv", "write CSV to FILE, or to standard output in place of the table (-)", text(), "FILE|-")(
+      "histograms",
+      "write how often areas of triangles meet, per mesh a table (.csv) and a picture (.svg), into DIR; "
+      "computes even where an analysis file is valid",
+      text(), "DIR");
   options.add_options("Running")(
       "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
       text(), "D")("cache-dir", "keep analysis files below DIR, default beside each asset", text(), "DIR")(
@@ -109,6 +113,16 @@ void check_output(const std::string& option, const fs::path& path, const std::ve
           fmt::format("--{}: '{}' is one of the assets and would be overwritten", option, path.string()));
 }
 
+void read_histograms(const CommandLine& line, AnalyzeRequest& request) {
+  const auto folder = line.value("histograms");
+  if (!folder) return;
+  if (folder->empty()) throw UsageError("--histograms needs a folder");
+  std::error_code ignored;
+  if (fs::exists(*folder, ignored) && !fs::is_directory(*folder, ignored))
+    throw UsageError(fmt::format("--histograms: '{}' is a file; a folder is needed", *folder));
+  request.histograms = *folder;
+}
+
 void read_output(const CommandLine& line, AnalyzeRequest& request) {
   request.json = line.value("json");
   request.csv = line.value("csv");
@@ -158,6 +172,7 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
     if (asset.empty())
       throw UsageError("an asset's name is empty; is a variable of the calling script unset?");
   read_output(line, request);
+  read_histograms(line, request);
   return request;
 }
 

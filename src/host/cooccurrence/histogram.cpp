@@ -24,6 +24,7 @@ using namespace interface::cooccurrence;
 
 namespace {
 
+static_assert(kBins == analysis::kHistogramBins);
 constexpr std::uint32_t kCellsOfMesh = kBins * kBins;
 constexpr auto kBinBits = static_cast<std::uint32_t>(std::bit_width(kBins - 1));
 constexpr std::uint64_t kNoPair = ~std::uint64_t{0};

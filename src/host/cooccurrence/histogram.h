@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "adjacency/adjacency.h"
+#include "analysis/histogram.h"
 #include "cooccurrence/area_classes.h"
 #include "cooccurrence/label_runs.h"
 #include "geometry/geometry.h"
@@ -27,18 +28,8 @@
 
 namespace scene_analyzer::cooccurrence {
 
-struct PairCount {
-  std::uint32_t row = 0, column = 0;  // indices into Histogram::values
-  std::uint64_t count = 0;            // ordered pairs (i, j) of neighbours, at least 1
-  bool operator==(const PairCount&) const = default;
-};
-
-struct Histogram {
-  std::vector<double> values;       // distinct attributes (areas, or means of merged ones), ascending
-  std::vector<PairCount> pairs;     // ascending by row, then column; empty when refused
-  std::string refused;              // why the pairs are missing, with need and limit; or empty
-  std::vector<std::uint64_t> bins;  // kBins x kBins, row-major
-};
+using analysis::Histogram;
+using analysis::PairCount;
 
 struct HistogramLimits {
   std::uint64_t pairs_of_mesh = std::uint64_t{1} << 24;   // from edges with more than two triangles

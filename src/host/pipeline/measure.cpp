@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "adjacency/adjacency.h"
 #include "cooccurrence/area_classes.h"
 #include "cooccurrence/contrast.h"
+#include "cooccurrence/histogram.h"
 #include "geometry/geometry.h"
 #include "gpu/error.h"
 #include "pipeline/batching.h"
@@ -74,6 +76,7 @@ struct Measurer::Stages {
   planar_groups::PlanarGroupBuilder planar{device, scan, sort};
   cooccurrence::AreaClassBuilder classes{device, scan, sort};
   cooccurrence::ContrastSummer contrast{device, scan};
+  std::optional<cooccurrence::HistogramBuilder> histograms;  // made when somebody asks
 
   explicit Stages(gpu::Device& on) : device(on) {}
 };
@@ -84,8 +87,13 @@ namespace {
 class BatchRun {
  public:
   BatchRun(Measurer::Stages& stages, const PlannedBatch& plan, const analysis::Parameters& parameters,
-           analysis::MetricSet metrics, analysis::AssetAnalysis& analysis)
-      : stages_(stages), plan_(plan), parameters_(parameters), metrics_(metrics), analysis_(analysis) {}
+           analysis::MetricSet metrics, analysis::AssetAnalysis& analysis, const HistogramSink& histograms)
+      : stages_(stages),
+        plan_(plan),
+        parameters_(parameters),
+        metrics_(metrics),
+        analysis_(analysis),
+        histograms_(histograms) {}
 
   void run(const std::function<void(const char*)>& step) {
     step("areas and adjacency");
@@ -96,9 +104,9 @@ class BatchRun {
     }
     step("bounds");
     bound_instances();
-    if (wants(metrics_, Metric::kCooccurrenceContrast)) {
+    if (wants(metrics_, Metric::kCooccurrenceContrast) || histograms_) {
       step("co-occurrence");
-      sum_contrast();
+      compare_areas();
     }
   }
 
@@ -153,10 +161,11 @@ class BatchRun {
                                             .max = {bounds[i][1], bounds[i][3], bounds[i][5]}};
   }
 
-  void sum_contrast() {
+  void compare_areas() {
+    const bool contrast = wants(metrics_, Metric::kCooccurrenceContrast);
     const auto kept = [](const GeometryTotals& totals) { return totals.kept > 0; };
     if (std::none_of(totals_.begin(), totals_.end(), kept)) {
-      for (std::size_t mesh = 0; mesh < totals_.size(); ++mesh) fill_contrast(target(mesh), 0, 0);
+      for (std::size_t mesh = 0; contrast && mesh < totals_.size(); ++mesh) fill_contrast(target(mesh), 0, 0);
       return;
     }
     cooccurrence::AreaClasses classes;
@@ -166,6 +175,11 @@ class BatchRun {
       recorder.submit_and_wait();
     }
     stages_.classes.limit(stages_.device, classes, parameters_.dim);
+    if (contrast) sum_contrast(classes);
+    if (histograms_) count_histograms(classes);
+  }
+
+  void sum_contrast(const cooccurrence::AreaClasses& classes) {
     gpu::Recorder recorder(stages_.device);
     const auto partial = stages_.contrast.record(recorder, geometry_, adjacency_, classes);
     recorder.submit_and_wait();
@@ -174,11 +188,28 @@ class BatchRun {
       fill_contrast(target(mesh), sums[mesh], classes.counts[mesh]);
   }
 
+  void count_histograms(const cooccurrence::AreaClasses& classes) {
+    if (!stages_.histograms) stages_.histograms.emplace(stages_.device, stages_.scan, stages_.sort);
+    const auto hand_over = [&](std::size_t mesh, const analysis::Histogram& histogram) {
+      if (totals_[mesh].kept > 0) histograms_(plan_.geometries[mesh], histogram);
+    };
+    try {
+      stages_.histograms->build(stages_.device, geometry_, adjacency_, classes, hand_over);
+    } catch (const gpu::OutOfMemory& error) {
+      if (plan_.geometries.size() > 1) throw;  // each mesh will have the device for itself
+      // The ratings are there: no reason to lose them.
+      analysis::Histogram missing;
+      missing.refused = error.what();
+      hand_over(0, missing);
+    }
+  }
+
   Measurer::Stages& stages_;
   const PlannedBatch& plan_;
   const analysis::Parameters& parameters_;
   analysis::MetricSet metrics_;
   analysis::AssetAnalysis& analysis_;
+  const HistogramSink& histograms_;
   geometry::Geometry geometry_;
   adjacency::Adjacency adjacency_;
   std::vector<GeometryTotals> totals_;
@@ -191,9 +222,9 @@ Measurer::~Measurer() = default;
 
 void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameters& parameters,
                              analysis::MetricSet metrics, const std::function<void(const char*)>& step,
-                             analysis::AssetAnalysis& analysis) {
+                             analysis::AssetAnalysis& analysis, const HistogramSink& histograms) {
   try {
-    BatchRun(*stages_, plan, parameters, metrics, analysis).run(step);
+    BatchRun(*stages_, plan, parameters, metrics, analysis, histograms).run(step);
   } catch (const gpu::OutOfMemory& error) {
     // The estimate was too low: meshes with many shared edges need more. Each mesh gets the device for
     // itself; one that still does not fit is reported, and the others keep their results.
@@ -212,13 +243,13 @@ void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameter
     for (std::size_t i = 0; i < plan.geometries.size(); ++i)
       measure_batch({.batch = {.meshes = {plan.batch.meshes[i]}, .transformed = plan.batch.transformed},
                      .geometries = {plan.geometries[i]}},
-                    parameters, metrics, step, analysis);
+                    parameters, metrics, step, analysis, histograms);
   }
 }
 
 void Measurer::measure(const mesh::Scene& scene, const analysis::Parameters& parameters,
                        analysis::MetricSet metrics, const Progress& progress,
-                       analysis::AssetAnalysis& analysis) {
+                       analysis::AssetAnalysis& analysis, const HistogramSink& histograms) {
   GeometryTable table = make_geometry_table(scene);
   analysis.geometries = std::move(table.geometries);
   analysis.instances = std::move(table.instances);
@@ -233,7 +264,7 @@ void Measurer::measure(const mesh::Scene& scene, const analysis::Parameters& par
       const double within = std::min(steps++, 3U) / kSteps * static_cast<double>(here);
       if (progress) progress((static_cast<double>(done) + within) / static_cast<double>(all), step);
     };
-    measure_batch(plan, parameters, metrics, report, analysis);
+    measure_batch(plan, parameters, metrics, report, analysis, histograms);
     done += here;
   }
 }

@@ -5,11 +5,13 @@
 // groups, area classes and co-occurrence.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "analysis/analysis.h"
+#include "analysis/histogram.h"
 #include "gpu/device.h"
 #include "mesh/scene.h"
 
@@ -20,6 +22,10 @@ struct PlannedBatch;
 // Called between steps: fraction done of the current asset in [0,1] and what is being done ("planar groups").
 using Progress = std::function<void(double fraction, const std::string& step)>;
 
+// Takes the co-occurrence histogram of one geometry with a kept triangle, counts and bounds of which are
+// already in the analysis. May be called again for a geometry whose batch ran out of memory: the last counts.
+using HistogramSink = std::function<void(std::uint32_t geometry, const analysis::Histogram& histogram)>;
+
 class Measurer {
  public:
   explicit Measurer(gpu::Device& device);  // creates kernels lazily, once
@@ -27,17 +33,19 @@ class Measurer {
 
   // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds
   // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit.
-  // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes per
-  // triangle (about 250 where all edges have more than two triangles).
+  // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes
+  // per triangle (about 250 where all edges have more than two triangles). Histograms are computed only for a
+  // sink.
   void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
-               const Progress& progress, analysis::AssetAnalysis& analysis);
+               const Progress& progress, analysis::AssetAnalysis& analysis,
+               const HistogramSink& histograms = {});
 
   struct Stages;  // kernels of every stage
 
  private:
   void measure_batch(const PlannedBatch& plan, const analysis::Parameters& parameters,
                      analysis::MetricSet metrics, const std::function<void(const char*)>& step,
-                     analysis::AssetAnalysis& analysis);
+                     analysis::AssetAnalysis& analysis, const HistogramSink& histograms);
 
   std::unique_ptr<Stages> stages_;
 };

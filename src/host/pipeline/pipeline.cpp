@@ -136,7 +136,7 @@ bool Pipeline::reuse(const fs::path& asset, const Progress& report, MetricSet& w
     return false;
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
-  if (!covers(stored.computed, wanted)) {
+  if (!covers(stored.computed, wanted) || options_.histograms) {
     // Computing only what is missing would lose what the next run may ask for.
     wanted |= stored.computed & kOptionalMetrics;
     return false;
@@ -179,7 +179,12 @@ void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricS
   const auto inner = [&](double fraction, const std::string& step) {
     report(kImported + (kMeasured - kImported) * fraction, step);
   };
-  measurer_->measure(scene, options_.parameters, wanted, inner, analysis);
+  HistogramSink histograms;
+  if (options_.histograms)
+    histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
+      options_.histograms(analysis, geometry, histogram);
+    };
+  measurer_->measure(scene, options_.parameters, wanted, inner, analysis, histograms);
 }
 
 void Pipeline::store(const fs::path& asset, const mesh::Scene& scene, bool unchanged, const Progress& report,

@@ -27,6 +27,11 @@ struct Options {
   bool use_analysis_files = true;                     // --no-cache: neither read nor written
   std::optional<std::filesystem::path> cache_folder;  // --cache-dir
   import::Limits import_limits;
+  // Takes histograms as they are computed; `analysis` has all its instances by then. Analysis files hold no
+  // histograms: with it every asset is imported and measured.
+  std::function<void(const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
+                     const analysis::Histogram& histogram)>
+      histograms;
 };
 
 // What became of one asset. Exactly one of `analysis` and `error` is meaningful.
