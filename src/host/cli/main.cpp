@@ -95,7 +95,7 @@ int run(const std::vector<std::string>& arguments) {
     log_warning("stopped; finished assets are kept in their analysis files");
     return stop.exit_code();
   } catch (const std::exception& error) {
-    return report_error(kDefect, error, " (a defect of scene-analyzer; please report it with the command)");
+    return report_error(kUnusable, error, " (a defect of scene-analyzer; please report it with the command)");
   }
 }
 
