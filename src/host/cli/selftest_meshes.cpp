@@ -109,13 +109,13 @@ BuiltInMesh split_tetrahedron(std::uint32_t levels) {
   std::vector<std::array<std::uint32_t, 3>> base = {{1, 0, 2}};
   for (std::uint32_t level = 0; level < levels; ++level) {
     std::vector<std::array<std::uint32_t, 3>> finer;
-    for (const auto& [a, b, c] : base) {
+    for (const std::array<std::uint32_t, 3>& face : base) {
       const auto mean = [&](std::size_t axis) {
-        return (static_cast<double>(mesh.positions[3 * a + axis]) +
-                static_cast<double>(mesh.positions[3 * b + axis]) +
-                static_cast<double>(mesh.positions[3 * c + axis])) /
-               3;
+        double sum = 0;
+        for (const std::uint32_t corner : face) sum += static_cast<double>(mesh.positions[3 * corner + axis]);
+        return sum / 3;
       };
+      const auto [a, b, c] = face;
       const std::uint32_t centre = mesh.add_vertex(mean(0), mean(1), 0);  // exactly in the plane of the base
       finer.insert(finer.end(), {{a, b, centre}, {b, c, centre}, {c, a, centre}});
     }
