@@ -1,0 +1,74 @@
+// device_run.h — One scene on its way through the stages on the device, each of them runnable again and
+// again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adjacency/adjacency.h"
+#include "analysis/analysis.h"
+#include "cooccurrence/area_classes.h"
+#include "cooccurrence/contrast.h"
+#include "geometry/geometry.h"
+#include "gpu/device.h"
+#include "gpu/recorder.h"
+#include "planar_groups/planar_groups.h"
+#include "primitives/radix_sort.h"
+#include "primitives/scan.h"
+#include "stages.h"
+
+namespace scene_analyzer::bench {
+
+// The kernels of all stages, made once per device.
+struct Kernels {
+  gpu::Device& device;
+  primitives::Scan scan{device};
+  primitives::RadixSort sort{device, scan};
+  geometry::GeometryBuilder geometry{device};
+  adjacency::AdjacencyBuilder adjacency{device, sort};
+  planar_groups::PlanarGroupBuilder planar{device, scan, sort};
+  cooccurrence::AreaClassBuilder classes{device, scan, sort};
+  cooccurrence::ContrastSummer contrast{device, scan};
+
+  explicit Kernels(gpu::Device& on) : device(on) {}
+};
+
+// Where the time of one stage went: kernels in order of first use, then whatever the host did.
+struct Profile {
+  Stage stage;
+  std::vector<std::pair<std::string, double>> parts;  // seconds
+};
+
+class DeviceRun {
+ public:
+  // All meshes of the scene form one batch. `kernels` and `scene` must outlive the run.
+  DeviceRun(const Kernels& kernels, const mesh::Scene& scene);
+
+  // Seconds that the stage took with all its buffers, uploads and waits. The results of the stages before
+  // must be there.
+  double run(Stage stage);
+  // The same with a timestamp around every dispatch.
+  Profile profile(Stage stage);
+
+  // What the stages found, per mesh; ratings but the contrast are left out. All stages must have run.
+  std::vector<analysis::GeometryAnalysis> results() const;
+
+ private:
+  struct Recording;  // a recorder, and what is measured beside it
+  void forget(Stage stage);
+  void execute(Stage stage, Recording& recording);
+
+  const Kernels& kernels_;
+  const mesh::Scene& scene_;
+  geometry::Batch batch_;
+  geometry::Geometry geometry_;
+  std::vector<interface::mesh::GeometryTotals> totals_;
+  adjacency::Adjacency adjacency_;
+  planar_groups::PlanarGroups groups_;
+  cooccurrence::AreaClasses classes_;
+  gpu::Array<double> contrast_;
+};
+
+}  // namespace scene_analyzer::bench
