@@ -32,8 +32,6 @@ gpu::DeviceOptions device_options() {
 
 class Runner {
  public:
-  Runner() : bench_{.device = gpu::Device(device_options())} {}
-
   void register_all() {
     for (const Case& one : cases()) {
       add(one, std::string(kWhole), [](Subject& subject) { return subject.time_whole(); });
@@ -50,46 +48,49 @@ class Runner {
  private:
   template <typename Time>
   void add(const Case& one, const std::string& stage, Time time) {
-    benchmark::RegisterBenchmark((one.name + "/" + stage).c_str(),
-                                 [this, &one, stage, time](benchmark::State& state) {
-                                   guarded(state, [&] {
-                                     Subject& subject = subject_of(one);
-                                     time(subject);  // caches, page tables and clocks as warm as they will be
-                                     Row row{.which = one.name,
-                                             .stage = stage,
-                                             .triangles = subject.triangles(),
-                                             .peak_bytes = subject.peak_bytes()};
-                                     for (auto _ : state) {
-                                       row.rounds.push_back(time(subject));
-                                       state.SetIterationTime(row.rounds.back().device);
-                                     }
-                                     state.counters["twin_ms"] = row.least().twin * 1e3;
-                                     state.counters["ratio"] = row.ratio();
-                                     state.counters["ns/triangle"] =
-                                         row.least().device * 1e9 / static_cast<double>(row.triangles);
-                                     measured_.rows.push_back(std::move(row));
-                                   });
-                                 })
+    const auto run = [this, &one, stage, time](benchmark::State& state) {
+      guarded(state, [&] { measure(state, subject_of(one), stage, time); });
+    };
+    benchmark::RegisterBenchmark((one.name + "/" + stage).c_str(), run)
         ->Iterations(one.rounds)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
   }
 
   void add_kernels(const Case& one) {
-    benchmark::RegisterBenchmark((one.name + "/kernels").c_str(),
-                                 [this, &one](benchmark::State& state) {
-                                   guarded(state, [&] {
-                                     Subject& subject = subject_of(one);
-                                     KernelTable table{
-                                         .which = one.name, .triangles = subject.triangles(), .stages = {}};
-                                     for (auto _ : state)
-                                       for (std::size_t i = 0; i < kStageCount; ++i)
-                                         table.stages.push_back(subject.profile(static_cast<Stage>(i)));
-                                     measured_.kernels.push_back(std::move(table));
-                                   });
-                                 })
+    const auto run = [this, &one](benchmark::State& state) {
+      guarded(state, [&] { measure_kernels(state, subject_of(one)); });
+    };
+    benchmark::RegisterBenchmark((one.name + "/kernels").c_str(), run)
         ->Iterations(1)
         ->Unit(benchmark::kMillisecond);
+  }
+
+  // The subject has run everything once: caches and page tables are as warm as they will be.
+  template <typename Time>
+  void measure(benchmark::State& state, Subject& subject, const std::string& stage, const Time& time) {
+    Row row{.which = subject.which().name,
+            .stage = stage,
+            .triangles = subject.triangles(),
+            .peak_bytes = subject.peak_bytes(),
+            .rounds = {}};
+    for (auto _ : state) {
+      row.rounds.push_back(time(subject));
+      state.SetIterationTime(row.rounds.back().device);
+    }
+    const Seconds least = row.least();
+    state.counters["twin_ms"] = least.twin * 1e3;
+    state.counters["ratio"] = row.ratio();
+    state.counters["ns/triangle"] = least.device * 1e9 / static_cast<double>(row.triangles);
+    measured_.rows.push_back(std::move(row));
+  }
+
+  void measure_kernels(benchmark::State& state, Subject& subject) {
+    KernelTable table{.which = subject.which().name, .triangles = subject.triangles(), .stages = {}};
+    for (auto _ : state)
+      for (std::size_t i = 0; i < kStageCount; ++i)
+        table.stages.push_back(subject.profile(static_cast<Stage>(i)));
+    measured_.kernels.push_back(std::move(table));
   }
 
   template <typename Work>
@@ -111,7 +112,7 @@ class Runner {
     return *subject_;
   }
 
-  Bench bench_;
+  Bench bench_{.device = gpu::Device(device_options())};
   std::unique_ptr<Subject> subject_;
   Measured measured_;
 };
