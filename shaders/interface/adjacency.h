@@ -14,7 +14,7 @@
 INTERFACE_BEGIN(adjacency)
 
 INTERFACE_CONST uint kShared = 0x80000000u;
-INTERFACE_CONST uint kLocalProbes = 12;  // slots tried near the vertex before a random place is taken
+INTERFACE_CONST uint kLocalProbes = 12;  // slots tried in a row before another random place is taken
 
 struct HashParams {
   uint half_edges;

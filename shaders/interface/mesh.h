@@ -12,7 +12,6 @@
 
 INTERFACE_BEGIN(mesh)
 
-INTERFACE_CONST uint kWorkgroup = 64;  // threads per workgroup of every kernel unless it says otherwise
 INTERFACE_CONST uint kChunkSize = 64;  // triangles per chunk, and partial results per chunk of a higher level
 INTERFACE_CONST uint kNone = 0xFFFFFFFFu;
 

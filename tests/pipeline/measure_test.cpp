@@ -20,6 +20,19 @@ using analysis::AssetAnalysis;
 using analysis::MetricSet;
 using test_meshes::TestMesh;
 
+mesh::Matrix4 placed(const mesh::Matrix3& linear, const mesh::Vector3& offset) {
+  return {linear[0], linear[1], linear[2], offset[0], linear[3], linear[4], linear[5], offset[1],
+          linear[6], linear[7], linear[8], offset[2], 0,         0,         0,         1};
+}
+
+mesh::Scene placed_scene(const TestMesh& mesh, const std::vector<mesh::Matrix4>& worlds) {
+  mesh::Scene scene = test::scene_of({mesh});
+  scene.instances.clear();
+  for (const mesh::Matrix4& world : worlds)
+    scene.instances.push_back({.mesh = 0, .node = "node", .world = world});
+  return scene;
+}
+
 class MeasureTest : public test::GpuTest {
  protected:
   AssetAnalysis measure(const mesh::Scene& scene, const analysis::Parameters& parameters = {},
@@ -93,6 +106,23 @@ TEST_F(MeasureTest, MillionTrianglesOnOneEdge) {
   compare({test_meshes::book(1'000'000, 3)});
 }
 
+// Welding leaves the vertices in use at the front of their range, so all edges want to lie in one part of the
+// hash table.
+TEST_F(MeasureTest, EdgesThatCrowdInTheHashTable) {
+  compare(
+      {test_meshes::heightfield(390, 0.5, 1), test_meshes::unwelded(test_meshes::heightfield(390, 0.5, 2))});
+  compare({test_meshes::shuffled(test_meshes::unwelded(test_meshes::heightfield(520, 0.5, 3)), 4)});
+}
+
+TEST_F(MeasureTest, ANodeThatIsNowhereHasNoBounds) {
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const mesh::Scene scene = placed_scene(
+      test_meshes::cube(), {placed({c, -s, 0, s, c, 0, 0, 0, 1}, {std::nan(""), 0, 0}), mesh::kIdentity4});
+  const AssetAnalysis analysis = measure(scene);
+  EXPECT_EQ(analysis.instances[0].bounds, std::nullopt);
+  EXPECT_TRUE(analysis.instances[1].bounds.has_value());
+}
+
 TEST_F(MeasureTest, TwentyThousandTinyMeshes) {
   std::vector<TestMesh> meshes(20'000, test_meshes::cube());
   const AssetAnalysis analysis = measure(test::scene_of(std::move(meshes)));
@@ -126,19 +156,6 @@ TEST_F(MeasureTest, OnlyWhatIsAskedForIsComputed) {
 }
 
 // --- Placement: instances, mirrored and non-uniform nodes, far origins. ---
-
-mesh::Matrix4 placed(const mesh::Matrix3& linear, const mesh::Vector3& offset) {
-  return {linear[0], linear[1], linear[2], offset[0], linear[3], linear[4], linear[5], offset[1],
-          linear[6], linear[7], linear[8], offset[2], 0,         0,         0,         1};
-}
-
-mesh::Scene placed_scene(const TestMesh& mesh, const std::vector<mesh::Matrix4>& worlds) {
-  mesh::Scene scene = test::scene_of({mesh});
-  scene.instances.clear();
-  for (const mesh::Matrix4& world : worlds)
-    scene.instances.push_back({.mesh = 0, .node = "node", .world = world});
-  return scene;
-}
 
 TEST_F(MeasureTest, SimilaritiesShareOneGeometryOthersAreTransformed) {
   const double c = std::cos(0.7), s = std::sin(0.7);

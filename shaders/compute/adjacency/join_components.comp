@@ -12,15 +12,25 @@ layout(binding = 2, scalar) coherent buffer Parent { uint parent[]; };
 #include "compute/lib/half_edges.glsl"
 #include "compute/lib/union_find.glsl"
 
+uint neighbour_across(uint other, uint t) {
+  bool among_many = is_shared(other);
+  uint first = shared_half_edges[among_many ? other & ~kShared : 0];
+  return among_many ? first / 3 : (other == kNone ? t : other / 3);
+}
+
 void main() {
   uint t = global_thread();
   if (t >= params.triangles) return;
+  // A pair on a manifold edge is seen from both sides: the higher triangle speaks for it. The lowest neighbour is united last, so that what is
+  // found on the way stays short.
+  uint lowest = t;
   for (uint h = 3 * t; h < 3 * t + 3; ++h) {
-    uint other = twin[h];
-    bool among_many = is_shared(other);
-    uint first = shared_half_edges[among_many ? other & ~kShared : 0];
-    uint neighbour = among_many ? first / 3 : (other == kNone ? t : other / 3);
-    // A pair on a manifold edge is seen from both sides: the higher triangle speaks for it.
-    unite(t, min(t, neighbour));
+    uint neighbour = neighbour_across(twin[h], t);
+    uint later = min(lowest, neighbour);
+    uint now = max(lowest, neighbour);
+    // A loop instead of a branch: see sum_contrast.comp.
+    for (bool joins = now < t; joins; joins = false) unite(t, now);
+    lowest = later;
   }
+  for (bool joins = lowest < t; joins; joins = false) unite(t, lowest);
 }

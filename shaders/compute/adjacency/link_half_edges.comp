@@ -9,6 +9,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Block { LinkParams params; };
 layout(binding = 0, scalar) readonly buffer Table { uint table[]; };
 layout(binding = 1, scalar) buffer Twin { uint twin[]; };
+layout(binding = 2, scalar) buffer SharedEdges { uint shared_edges; };  // edges with a longer list
 #include "compute/lib/threads.glsl"
 
 void main() {
@@ -18,4 +19,5 @@ void main() {
   uint second = head == kNone ? kNone : twin[head];
   uint third = second == kNone ? kNone : twin[second];
   if (second != kNone && third == kNone) twin[second] = head;
+  if (third != kNone) atomicAdd(shared_edges, 1);
 }

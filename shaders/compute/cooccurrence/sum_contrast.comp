@@ -36,7 +36,8 @@ void main() {
       double difference = own - attribute_of(manifold ? other / 3 : t, range, scale);
       sum += difference * difference;
       neighbours += manifold ? 1 : 0;
-      // Runs once or not at all (see join_coplanar.comp).
+      // A loop that runs once or not at all: software devices execute both sides of a branch, but leave a loop that no
+      // thread needs.
       for (bool among_many = !manifold && other != kNone; among_many; among_many = false) {
         uint begin = other & ~kShared;
         uint end = ends[begin];

@@ -1,7 +1,7 @@
 // weld_vertices.comp — One thread per vertex: finds or claims the slot of its coordinates in a hash table.
 //
 // table[slot] ends as the lowest vertex index with those coordinates, whatever the order of threads; slot_of[vertex] is that slot.
-// -0 equals 0; a NaN equals nothing, itself included in SPEC's sense, so such vertices get a slot of their own by
+// -0 equals 0; a NaN equals nothing, so such vertices get a slot of their own by
 // never comparing equal. Vertices of different meshes are different.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -40,13 +40,17 @@ void main() {
   uint t = global_thread();
   if (t >= params.count) return;
   double largest_coordinate = geometry[mesh_of[t]].largest_coordinate;
-  for (uint h = 3 * t; h < 3 * t + 3; ++h) {
+  // The edges to test as bits, so that threads that run in step go through as many rounds as the busiest of them has edges.
+  uint edges = 0;
+  for (uint c = 0; c < 3; ++c) edges |= is_manifold(twin[3 * t + c]) && twin[3 * t + c] < 3 * t + c ? 1u << c : 0u;
+  while (edges != 0) {
+    uint h = 3 * t + uint(findLSB(edges));
+    edges &= edges - 1;
     uint across = twin[h];
-    // A loop that runs once or not at all: software devices execute both sides of a branch, but leave a loop that no lane needs.
-    for (bool test = is_manifold(across) && across < h; test; test = false) {
-      bool flipped = corners[h] == corners[across];
-      uint other = across / 3;
-      unite(t, coplanar(t, other, flipped, largest_coordinate) ? other : t);
-    }
+    bool flipped = corners[h] == corners[across];
+    uint other = across / 3;
+    bool same_plane = coplanar(t, other, flipped, largest_coordinate);
+    // A loop instead of a branch: see sum_contrast.comp.
+    for (bool joins = same_plane; joins; joins = false) unite(t, other);
   }
 }

@@ -13,12 +13,11 @@ layout(binding = 3, scalar) readonly buffer ValuesIn { uint values_in[]; };
 layout(binding = 4, scalar) writeonly buffer LowOut { uint low_out[]; };
 layout(binding = 5, scalar) writeonly buffer HighOut { uint high_out[]; };
 layout(binding = 6, scalar) writeonly buffer ValuesOut { uint values_out[]; };
+layout(binding = 7, scalar) readonly buffer Words { uint words[]; };  // the half of the key that holds the digit
 #include "compute/lib/threads.glsl"
 #include "compute/primitives/digit_counters.glsl"
 
 shared uint tile_offsets[kDigits];
-
-uint digit_of(uint low, uint high) { return ((params.shift < 32u ? low : high) >> (params.shift & 31u)) & 0xFFu; }
 
 // Counters become, for each digit, the number of keys in the threads before.
 void scan_counters() {
@@ -39,16 +38,15 @@ void main() {
   for (uint digit = gl_LocalInvocationID.x; digit < kDigits; digit += kSortThreads)
     tile_offsets[digit] = tile < params.tiles ? offsets[digit * params.tiles + tile] : 0;
   clear_counters();
-  for (uint i = first; i < last; ++i) count_digit(digit_of(low_in[i], high_in[i]));
+  for (uint i = first; i < last; ++i) count_digit((words[i] >> (params.shift & 31u)) & 0xFFu);
   barrier();
   scan_counters();
   barrier();
   for (uint i = first; i < last; ++i) {
-    uint low = low_in[i], high = high_in[i];
-    uint digit = digit_of(low, high);
+    uint digit = (words[i] >> (params.shift & 31u)) & 0xFFu;
     uint place = tile_offsets[digit] + count_digit(digit);
-    low_out[place] = low;
-    high_out[place] = high;
+    low_out[place] = low_in[i];
+    high_out[place] = high_in[i];
     values_out[place] = values_in[i];
   }
 }

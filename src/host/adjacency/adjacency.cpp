@@ -57,18 +57,29 @@ AdjacencyBuilder::Matching AdjacencyBuilder::record_matching(gpu::Recorder& reco
   const std::uint32_t slots = edge_slots(device.info(), half_edges);
   Matching matching{.twin = gpu::Array<std::uint32_t>(device, "half-edge twins", half_edges),
                     .table = gpu::Array<std::uint32_t>(device, "edge table", slots),
-                    .shared_count = gpu::Array<std::uint32_t>(device, "shared half-edge count", 1)};
+                    .shared_edges = gpu::Array<std::uint32_t>(device, "shared edge count", 1)};
   recorder.fill(matching.table, kNone);
-  recorder.fill(matching.shared_count, 0);
+  recorder.fill(matching.shared_edges, 0);
   const HashParams hash{
       .half_edges = half_edges, .slots = slots, .slots_per_vertex = slots_per_vertex(slots, geometry)};
   recorder.run(hash_half_edges_, half_edges, hash,
                {geometry.corners, geometry.areas, matching.table, matching.twin});
-  recorder.run(link_half_edges_, slots, LinkParams{slots}, {matching.table, matching.twin});
-  recorder.run(count_shared_, half_edges,
-               SharedParams{.count = half_edges, .slots = slots, .slots_per_vertex = 0},
-               {matching.twin, matching.shared_count});
+  recorder.run(link_half_edges_, slots, LinkParams{slots},
+               {matching.table, matching.twin, matching.shared_edges});
   return matching;
+}
+
+// Half-edges on shared edges; a pass of its own, which most batches do not need.
+std::uint64_t AdjacencyBuilder::count_shared(gpu::Device& device, const Matching& matching) const {
+  if (matching.shared_edges.download(device).front() == 0) return 0;
+  const gpu::Array<std::uint32_t> count(device, "shared half-edge count", 1);
+  const auto half_edges = static_cast<std::uint32_t>(matching.twin.count());
+  gpu::Recorder recorder(device);
+  recorder.fill(count, 0);
+  recorder.run(count_shared_, half_edges,
+               SharedParams{.count = half_edges, .slots = 0, .slots_per_vertex = 0}, {matching.twin, count});
+  recorder.submit_and_wait();
+  return count.download(device).front();
 }
 
 void AdjacencyBuilder::record_shared(gpu::Recorder& recorder, const geometry::Geometry& geometry,
@@ -100,7 +111,7 @@ Adjacency AdjacencyBuilder::complete(gpu::Device& device, const geometry::Geomet
   const auto triangles = static_cast<std::uint32_t>(geometry.triangle_count);
   Adjacency adjacency;
   SharedEdges& shared = adjacency.shared;
-  shared.count = matching.shared_count.download(device).front();
+  shared.count = count_shared(device, matching);
   shared.half_edges = gpu::Array<std::uint32_t>(device, "shared half-edges", shared.count);
   shared.begins = gpu::Array<std::uint32_t>(device, "shared edge begins", shared.count);
   shared.ends = gpu::Array<std::uint32_t>(device, "shared edge ends", shared.count);

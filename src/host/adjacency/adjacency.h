@@ -38,7 +38,7 @@ class AdjacencyBuilder {
   struct Matching {
     gpu::Array<std::uint32_t> twin;
     gpu::Array<std::uint32_t> table;
-    gpu::Array<std::uint32_t> shared_count;  // one element
+    gpu::Array<std::uint32_t> shared_edges;  // one element: edges with more than two triangles
   };
 
   // Records the search for half-edges that meet, to be run in one go with the geometry's recording.
@@ -49,6 +49,7 @@ class AdjacencyBuilder {
   Adjacency complete(gpu::Device& device, const geometry::Geometry& geometry, Matching matching) const;
 
  private:
+  std::uint64_t count_shared(gpu::Device& device, const Matching& matching) const;
   void record_shared(gpu::Recorder& recorder, const geometry::Geometry& geometry, const Matching& matching,
                      SharedEdges& shared) const;
 

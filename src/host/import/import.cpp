@@ -96,6 +96,8 @@ mesh::Scene import_asset(const fs::path& asset, const Limits& limits) {
     throw InputError(name + ": " + error.what());
   } catch (const wire::Malformed& error) {
     throw InputError(name + ": the importer gave no usable answer: " + error.what());
+  } catch (const std::system_error& error) {
+    throw InputError(name + ": the import worker could not be run: " + error.what());
   }
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 // A batch of several meshes stays below this: enough to fill a device, little enough to stay small in memory.
 constexpr std::uint64_t kFillingTriangles = 4'000'000;
+constexpr std::size_t kMostMeshes = 100'000;  // per batch: records and totals take 400 bytes per mesh
 
 std::uint64_t usable_memory(const gpu::DeviceInfo& device) {
   return device.free_memory_bytes / 10 * 9;
@@ -34,8 +35,8 @@ bool fits(const geometry::Batch& batch, const mesh::TriangleMesh& mesh, const gp
   if (batch.meshes.empty()) return true;
   vertices += mesh.vertex_count();
   triangles += mesh.triangle_count();
-  return triangles <= std::min(limits.triangles, kFillingTriangles) && vertices <= limits.vertices &&
-         memory_needed(vertices, triangles) <= usable_memory(device);
+  return batch.meshes.size() < kMostMeshes && triangles <= std::min(limits.triangles, kFillingTriangles) &&
+         vertices <= limits.vertices && memory_needed(vertices, triangles) <= usable_memory(device);
 }
 
 }  // namespace

@@ -146,6 +146,9 @@ class BatchRun {
     for (analysis::InstanceAnalysis& instance : analysis_.instances) {
       const std::uint32_t mesh = mesh_of_geometry[instance.geometry];
       if (mesh == interface::mesh::kNone || totals_[mesh].kept == 0) continue;
+      if (!std::all_of(instance.world.begin(), instance.world.end(),
+                       [](double entry) { return std::isfinite(entry); }))
+        continue;  // nowhere: bounds stay absent
       const GeometryTotals& totals = totals_[mesh];
       analysis::Bounds local;
       std::copy(totals.low.begin(), totals.low.end(), local.min.begin());
@@ -226,8 +229,9 @@ void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameter
   try {
     BatchRun(*stages_, plan, parameters, metrics, analysis, histograms).run(step);
   } catch (const gpu::OutOfMemory& error) {
-    // The estimate was too low: meshes with many shared edges need more. Each mesh gets the device for
-    // itself; one that still does not fit is reported, and the others keep their results.
+    // The estimate was too low: meshes with many shared edges need more. Halves get the device for
+    // themselves, down to single meshes; one that still does not fit is reported, and the others keep their
+    // results.
     if (plan.geometries.size() == 1) {
       GeometryAnalysis& geometry = analysis.geometries[plan.geometries.front()];
       GeometryAnalysis untouched;
@@ -240,10 +244,17 @@ void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameter
         if (instance.geometry == plan.geometries.front()) instance.bounds = std::nullopt;
       return;
     }
-    for (std::size_t i = 0; i < plan.geometries.size(); ++i)
-      measure_batch({.batch = {.meshes = {plan.batch.meshes[i]}, .transformed = plan.batch.transformed},
-                     .geometries = {plan.geometries[i]}},
-                    parameters, metrics, step, analysis, histograms);
+    const auto middle = static_cast<std::ptrdiff_t>(plan.geometries.size() / 2);
+    const auto& meshes = plan.batch.meshes;
+    const auto& geometries = plan.geometries;
+    const PlannedBatch halves[] = {
+        {.batch = {.meshes = {meshes.begin(), meshes.begin() + middle},
+                   .transformed = plan.batch.transformed},
+         .geometries = {geometries.begin(), geometries.begin() + middle}},
+        {.batch = {.meshes = {meshes.begin() + middle, meshes.end()}, .transformed = plan.batch.transformed},
+         .geometries = {geometries.begin() + middle, geometries.end()}}};
+    for (const PlannedBatch& half : halves)
+      measure_batch(half, parameters, metrics, step, analysis, histograms);
   }
 }
 

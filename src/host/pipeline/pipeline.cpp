@@ -151,6 +151,10 @@ void Pipeline::compute(const fs::path& asset, const Progress& report, MetricSet 
   report(0, "importing");
   const FileState before = state_of(asset);
   const mesh::Scene scene = import::import_asset(asset, options_.import_limits);
+  // Hashed now, not when it is stored: what is measured is what was read.
+  std::vector<analysis::FileFingerprint> files;
+  if (options_.use_analysis_files) files = analysis_file::fingerprint(asset, scene.files);
+  const bool unchanged = before == state_of(asset);
   AssetAnalysis& analysis = outcome.analysis.emplace();
   analysis.asset = asset.string();
   analysis.format = scene.format;
@@ -163,7 +167,8 @@ void Pipeline::compute(const fs::path& asset, const Progress& report, MetricSet 
     add_empty_row(analysis);
   else
     measure(scene, report, wanted, analysis);
-  if (options_.use_analysis_files) store(asset, scene, before == state_of(asset), report, outcome);
+  analysis.files = std::move(files);
+  if (options_.use_analysis_files) store(asset, unchanged, report, outcome);
 }
 
 void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricSet wanted,
@@ -187,14 +192,12 @@ void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricS
   measurer_->measure(scene, options_.parameters, wanted, inner, analysis, histograms);
 }
 
-void Pipeline::store(const fs::path& asset, const mesh::Scene& scene, bool unchanged, const Progress& report,
-                     Outcome& outcome) {
+void Pipeline::store(const fs::path& asset, bool unchanged, const Progress& report, Outcome& outcome) {
   AssetAnalysis& analysis = *outcome.analysis;
   // What did not fit may fit on another device, or when other programs have ended: such a result is not the
   // asset's.
   if (beyond_a_limit(analysis)) return;
   report(kMeasured, "writing the analysis file");
-  analysis.files = analysis_file::fingerprint(asset, scene.files);
   if (!unchanged) {
     outcome.messages.push_back(
         fmt::format("{}: the file changed while it was read; its analysis is not kept", asset.string()));

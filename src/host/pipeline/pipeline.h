@@ -62,8 +62,7 @@ class Pipeline {
                Outcome& outcome);
   void measure(const mesh::Scene& scene, const Progress& report, analysis::MetricSet wanted,
                analysis::AssetAnalysis& analysis);
-  void store(const std::filesystem::path& asset, const mesh::Scene& scene, bool unchanged,
-             const Progress& report, Outcome& outcome);
+  void store(const std::filesystem::path& asset, bool unchanged, const Progress& report, Outcome& outcome);
 
   Options options_;
   std::function<gpu::Device&()> device_;

@@ -34,11 +34,12 @@ KeyedValues RadixSort::record(gpu::Recorder& recorder, KeyedValues input, std::u
     const SortParams params{.count = static_cast<std::uint32_t>(count),
                             .shift = shift,
                             .tiles = static_cast<std::uint32_t>(tiles)};
-    recorder.run_groups(count_digits_, tiles, params, {shift < 32 ? input.low : input.high, offsets});
+    const auto& digit_words = shift < 32 ? input.low : input.high;
+    recorder.run_groups(count_digits_, tiles, params, {digit_words, offsets});
     scan_.record(recorder, offsets, tiles * kDigits);
     recorder.run_groups(
         scatter_digits_, tiles, params,
-        {offsets, input.low, input.high, input.values, output.low, output.high, output.values});
+        {offsets, input.low, input.high, input.values, output.low, output.high, output.values, digit_words});
     std::swap(input, output);
   }
   recorder.keep(std::move(output.low));
