@@ -61,7 +61,7 @@ TEST_F(AnalyzeTest, SeveralAssetsAreOneSceneInTableJsonAndCsv) {
   folder_.write("leg.obj", leg_obj());
   const ProgramResult result = analyze({"cube.obj", "leg.obj", "--json", "out.json", "--csv", "out.csv"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(complaints(result), IsEmpty());
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("cube"), HasSubstr("leg"), HasSubstr("0.5455"), Not(HasSubstr("\x1b["))));
 
@@ -255,6 +255,9 @@ TEST_F(AnalyzeTest, ColourOnlyWhereItIsWanted) {
 }
 
 TEST_F(AnalyzeTest, TheValidationLayerFindsNothing) {
+  const char* wanted = std::getenv("SCENE_ANALYZER_VALIDATION");
+  if (wanted != nullptr && std::string_view(wanted) == "0")
+    GTEST_SKIP() << "sanitizer builds run without the layer: it leaks itself";
   folder_.write("cube.obj", cube_obj());
   ProgramOptions options;
   options.environment = {{"SCENE_ANALYZER_VALIDATION", "1"}};
