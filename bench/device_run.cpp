@@ -11,7 +11,7 @@ struct DeviceRun::Recording {
 
   Recording(gpu::Device& device, bool profile) : recorder(device, profile) {}
   void submit() {
-    submitted += seconds_of([&] { recorder.submit_and_wait(); });
+    submitted += elapsed_of([&] { recorder.submit_and_wait(); }).wall;
   }
 };
 
@@ -19,9 +19,9 @@ DeviceRun::DeviceRun(const Kernels& kernels, const mesh::Scene& scene) : kernels
   for (const mesh::TriangleMesh& mesh : scene_.meshes) batch_.meshes.push_back({.mesh = &mesh});
 }
 
-double DeviceRun::run(Stage stage) {
+Elapsed DeviceRun::run(Stage stage) {
   forget(stage);
-  return seconds_of([&] {
+  return elapsed_of([&] {
     Recording recording(kernels_.device, false);
     execute(stage, recording);
   });
@@ -31,7 +31,7 @@ Profile DeviceRun::profile(Stage stage) {
   forget(stage);
   Profile profile{.stage = stage, .parts = {}};
   Recording recording(kernels_.device, true);
-  const double all = seconds_of([&] { execute(stage, recording); });
+  const double all = elapsed_of([&] { execute(stage, recording); }).wall;
   double in_kernels = 0;
   for (const gpu::Recorder::Timing& timing : recording.recorder.timings()) {
     const double seconds = timing.nanoseconds * 1e-9;
@@ -74,7 +74,7 @@ void DeviceRun::forget(Stage stage) {
 void DeviceRun::execute(Stage stage, Recording& recording) {
   gpu::Device& device = kernels_.device;
   const analysis::Parameters parameters;
-  const auto after = [&](const auto& work) { recording.host += seconds_of(work); };
+  const auto after = [&](const auto& work) { recording.host += elapsed_of(work).wall; };
   switch (stage) {
     case Stage::kGeometry:
       geometry_ = kernels_.geometry.record(recording.recorder, batch_);

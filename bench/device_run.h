@@ -46,9 +46,9 @@ class DeviceRun {
   // All meshes of the scene form one batch. `kernels` and `scene` must outlive the run.
   DeviceRun(const Kernels& kernels, const mesh::Scene& scene);
 
-  // Seconds that the stage took with all its buffers, uploads and waits. The results of the stages before
+  // What the stage took with all its buffers, uploads and waits. The results of the stages before
   // must be there.
-  double run(Stage stage);
+  Elapsed run(Stage stage);
   // The same with a timestamp around every dispatch.
   Profile profile(Stage stage);
 

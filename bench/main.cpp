@@ -76,12 +76,12 @@ class Runner {
             .rounds = {}};
     for (auto _ : state) {
       row.rounds.push_back(time(subject));
-      state.SetIterationTime(row.rounds.back().device);
+      state.SetIterationTime(row.rounds.back().device.wall);
     }
-    const Seconds least = row.least();
-    state.counters["twin_ms"] = least.twin * 1e3;
+    const Round least = row.least();
+    state.counters["twin_ms"] = least.twin.wall * 1e3;
     state.counters["ratio"] = row.ratio();
-    state.counters["ns/triangle"] = least.device * 1e9 / static_cast<double>(row.triangles);
+    state.counters["ns/triangle"] = least.device.wall * 1e9 / static_cast<double>(row.triangles);
     measured_.rows.push_back(std::move(row));
   }
 

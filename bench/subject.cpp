@@ -43,15 +43,15 @@ Subject::Runs& Subject::runs() {
   return *runs_;
 }
 
-Seconds Subject::time_whole() {
+Round Subject::time_whole() {
   runs_.reset();  // the recipe shall have the memory for itself
-  Seconds seconds;
-  seconds.device = seconds_of([&] { measure(); });
-  seconds.twin = seconds_of([&] { measure_by_twin(scene_); });
-  return seconds;
+  Round round;
+  round.device = elapsed_of([&] { measure(); });
+  round.twin = elapsed_of([&] { measure_by_twin(scene_); });
+  return round;
 }
 
-Seconds Subject::time_stage(Stage stage) {
+Round Subject::time_stage(Stage stage) {
   Runs& both = runs();
   return {.device = both.device.run(stage), .twin = both.twin.run(stage)};
 }

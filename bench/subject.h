@@ -22,8 +22,9 @@ struct Bench {
   pipeline::Measurer measurer{device};
 };
 
-struct Seconds {
-  double device = 0, twin = 0;
+// One run on each side.
+struct Round {
+  Elapsed device, twin;
 };
 
 class Subject {
@@ -35,9 +36,9 @@ class Subject {
   std::uint64_t triangles() const { return triangles_; }
   std::uint64_t peak_bytes() const { return peak_bytes_; }  // device buffers of the whole recipe
 
-  // One run on each side. Stages are checked when the first of them is asked for.
-  Seconds time_whole();
-  Seconds time_stage(Stage stage);
+  // Stages are checked when the first of them is asked for.
+  Round time_whole();
+  Round time_stage(Stage stage);
   // The least of three runs, part by part. After time_stage().
   Profile profile(Stage stage);
 

@@ -17,6 +17,10 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
+Elapsed least_of(const Elapsed& a, const Elapsed& b) {
+  return {.wall = std::min(a.wall, b.wall), .cpu = std::min(a.cpu, b.cpu)};
+}
+
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -42,26 +46,26 @@ void print_flatness(const std::vector<Row>& rows, const std::string& kind) {
   const Row* small = find_whole(rows, kind + "/100k");
   const Row* large = find_whole(rows, kind + "/10M");
   if (small == nullptr || large == nullptr) return;
-  const double factor = per_triangle(large->least().device, large->triangles) /
-                        per_triangle(small->least().device, small->triangles);
+  const double factor = per_triangle(large->least().device.wall, large->triangles) /
+                        per_triangle(small->least().device.wall, small->triangles);
   fmt::print("| cost per triangle, {} 10M against 100k | {:.2f} | at most 1.5 | {} |\n", kind, factor,
              verdict(factor <= 1.5));
 }
 
 }  // namespace
 
-Seconds Row::least() const {
-  Seconds least = rounds.front();
-  for (const Seconds& round : rounds) {
-    least.device = std::min(least.device, round.device);
-    least.twin = std::min(least.twin, round.twin);
+Round Row::least() const {
+  Round least = rounds.front();
+  for (const Round& round : rounds) {
+    least.device = least_of(least.device, round.device);
+    least.twin = least_of(least.twin, round.twin);
   }
   return least;
 }
 
 double Row::median_ratio() const {
   std::vector<double> ratios;
-  for (const Seconds& round : rounds) ratios.push_back(round.device / round.twin);
+  for (const Round& round : rounds) ratios.push_back(round.device.wall / round.twin.wall);
   return median_of(std::move(ratios));
 }
 
@@ -75,17 +79,18 @@ void print_machine(const gpu::DeviceInfo& device) {
 
 void print_rows(const std::vector<Row>& rows) {
   fmt::print(
-      "\n| mesh | stage | triangles | device ms | twin ms | ratio | median ratio | device ns/triangle | "
-      "bytes/triangle |\n|---|---|--:|--:|--:|--:|--:|--:|--:|\n");
+      "\n| mesh | stage | triangles | device ms | device CPU ms | twin ms | ratio | median ratio | "
+      "device ns/triangle | bytes/triangle |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const Row& row : rows) {
-    const Seconds least = row.least();
+    const Round least = row.least();
     const std::string bytes =
         row.stage == kWhole
             ? fmt::format("{:.0f}", static_cast<double>(row.peak_bytes) / static_cast<double>(row.triangles))
             : "";
-    fmt::print("| {} | {} | {} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.0f} | {} |\n", row.which, row.stage,
-               row.triangles, least.device * 1e3, least.twin * 1e3, row.ratio(), row.median_ratio(),
-               per_triangle(least.device, row.triangles), bytes);
+    fmt::print("| {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.0f} | {} |\n", row.which,
+               row.stage, row.triangles, least.device.wall * 1e3, least.device.cpu * 1e3,
+               least.twin.wall * 1e3, row.ratio(), row.median_ratio(),
+               per_triangle(least.device.wall, row.triangles), bytes);
   }
 }
 
@@ -123,7 +128,7 @@ void print_targets(const std::vector<Row>& rows) {
   const Row* apart = find_whole(rows, "boxes_apart/240k");
   const Row* joined = find_whole(rows, "boxes_joined/240k");
   if (apart == nullptr || joined == nullptr) return;
-  const double factor = apart->least().device / joined->least().device;
+  const double factor = apart->least().device.wall / joined->least().device.wall;
   fmt::print("| 20000 meshes of 12 triangles against the same in one mesh | {:.2f} | at most 3 | {} |\n",
              factor, verdict(factor <= 3));
 }

@@ -17,10 +17,10 @@ struct Row {
   std::string stage;
   std::uint64_t triangles = 0;
   std::uint64_t peak_bytes = 0;  // of the whole
-  std::vector<Seconds> rounds;
+  std::vector<Round> rounds;
   // Of each side the fastest round: whatever else a machine does only ever adds.
-  Seconds least() const;
-  double ratio() const { return least().device / least().twin; }
+  Round least() const;
+  double ratio() const { return least().device.wall / least().twin.wall; }
   // Of the rounds' ratios: in one round the machine is about equally busy for both sides.
   double median_ratio() const;
 };

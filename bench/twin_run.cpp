@@ -2,8 +2,8 @@
 
 namespace scene_analyzer::bench {
 
-double TwinRun::run(Stage stage) {
-  return seconds_of([&] {
+Elapsed TwinRun::run(Stage stage) {
+  return elapsed_of([&] {
     for (std::size_t i = 0; i < meshes_.size(); ++i) execute(stage, scene_.meshes[i], meshes_[i]);
   });
 }

@@ -15,8 +15,8 @@ class TwinRun {
   // `scene` must outlive the run.
   explicit TwinRun(const mesh::Scene& scene) : scene_(scene), meshes_(scene.meshes.size()) {}
 
-  // Seconds that the stage took for all meshes. The results of the stages before must be there.
-  double run(Stage stage);
+  // What the stage took for all meshes. The results of the stages before must be there.
+  Elapsed run(Stage stage);
 
   // All stages must have run.
   std::vector<analysis::GeometryAnalysis> results() const;
