@@ -14,6 +14,7 @@
 #include "key_shared.spv.h"
 #include "link_half_edges.spv.h"
 #include "locate_shared.spv.h"
+#include "start_components.spv.h"
 #include "sum_topology.spv.h"
 
 namespace scene_analyzer::adjacency {
@@ -46,6 +47,7 @@ AdjacencyBuilder::AdjacencyBuilder(gpu::Device& device, const primitives::RadixS
       locate_shared_(device.make_kernel("locate_shared", locate_shared_spv)),
       key_shared_(device.make_kernel("key_shared", key_shared_spv)),
       index_shared_(device.make_kernel("index_shared", index_shared_spv)),
+      start_components_(device.make_kernel("start_components", start_components_spv)),
       join_components_(device.make_kernel("join_components", join_components_spv)),
       sum_topology_(device.make_kernel("sum_topology", sum_topology_spv)),
       combine_(device.make_kernel("combine_topology", combine_topology_spv)) {}
@@ -120,7 +122,9 @@ Adjacency AdjacencyBuilder::complete(gpu::Device& device, const geometry::Geomet
 
   gpu::Recorder recorder(device);
   if (shared.count > 0) record_shared(recorder, geometry, matching, shared);
-  label_sets_.record_singletons(recorder, adjacency.labels);
+  recorder.run(start_components_, triangles, TriangleParams{triangles},
+               {matching.twin, shared.half_edges, adjacency.labels});
+  label_sets_.record_flatten(recorder, adjacency.labels);
   recorder.run(join_components_, triangles, TriangleParams{triangles},
                {matching.twin, shared.half_edges, adjacency.labels});
   label_sets_.record_flatten(recorder, adjacency.labels);

@@ -56,7 +56,7 @@ class AdjacencyBuilder {
   const primitives::RadixSort& sort_;
   LabelSets label_sets_;
   gpu::Kernel hash_half_edges_, link_half_edges_, count_shared_, gather_shared_, locate_shared_, key_shared_,
-      index_shared_, join_components_, sum_topology_, combine_;
+      index_shared_, start_components_, join_components_, sum_topology_, combine_;
 };
 
 }  // namespace scene_analyzer::adjacency
