@@ -1,6 +1,6 @@
 #include "analysis_file/sample.h"
-#include "analysis_file/temporary_name.h"
 #include "base/error.h"
+#include "files/temporary_name.h"
 
 namespace scene_analyzer::analysis_file {
 namespace {
@@ -71,8 +71,8 @@ TEST_F(Prune, AHitKeepsAFileFromGoing) {
 }
 
 TEST_F(Prune, LeftoversOfInterruptedWritesGoAfterAnHour) {
-  const auto old = put("sub/" + temporary_name(), 10, hours(2));
-  const auto fresh = put("sub/" + temporary_name(), 10, hours(0));
+  const auto old = put("sub/" + files::temporary_name(), 10, hours(2));
+  const auto fresh = put("sub/" + files::temporary_name(), 10, hours(0));
   expect(prune(folder, std::nullopt, std::nullopt), 1, 10, 0, 0);
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(fresh));
@@ -81,7 +81,7 @@ TEST_F(Prune, LeftoversOfInterruptedWritesGoAfterAnHour) {
 TEST_F(Prune, OtherFilesStay) {
   put("room.obj", 10, hours(9999));
   put("notes.analysis.txt", 10, hours(9999));
-  put(".something.analysis.tmp", 10, hours(9999));
+  put(".scene-analyzer-notes.tmp", 10, hours(9999));
   fs::create_directory(folder / "folder.analysis");
   expect(prune(folder, 0.0, 0), 0, 0, 0, 0);
   EXPECT_EQ(entries(folder), 4);

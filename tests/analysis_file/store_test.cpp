@@ -1,15 +1,17 @@
 #include <gmock/gmock.h>
 #include <signal.h>
-#include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <random>
 #include <thread>
 
 #include "analysis_file/sample.h"
 #include "base/error.h"
+#include "support/child_process.h"
+#include "support/hooked_sync.h"
+#include "support/small_disk.h"
 
 namespace scene_analyzer::analysis_file {
 namespace {
@@ -26,16 +28,6 @@ std::string failure(const fs::path& file, const analysis::AssetAnalysis& analysi
     return error.what();
   }
   return "";
-}
-
-// Runs `body` in a child, whose limits and death are its own; returns its wait status.
-template <typename Body>
-int in_child(Body body) {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(body());
-  int status = 0;
-  EXPECT_EQ(::waitpid(child, &status, 0), child);
-  return status;
 }
 
 TEST_F(Store, MissingFoldersAreCreated) {
@@ -76,33 +68,23 @@ TEST_F(Store, TargetThatIsAFolderLeavesNothingBehind) {
   EXPECT_EQ(entries(folder), 1);
 }
 
-// The limit cuts a write short first and refuses the next one: the same two steps as a disk that fills up.
-TEST_F(Store, WriteThatCannotFinishLeavesTheOldFile) {
-  store(folder / "x.analysis", full_analysis());
-  const std::string before = read_text(folder / "x.analysis");
-  const int status = in_child([&] {
-    ::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit = {before.size() / 2, before.size() / 2};
-    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return 2;
-    return failure(folder / "x.analysis", full_analysis()).find("File too large") != std::string::npos ? 0
-                                                                                                       : 1;
-  });
-  EXPECT_EQ(status, 0);
-  EXPECT_EQ(read_text(folder / "x.analysis"), before);
-  EXPECT_EQ(entries(folder), 1);
-}
-
 TEST_F(Store, FullDisk) {
-  if (::mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=64k") != 0)
-    GTEST_SKIP() << "mounting a small file system needs privileges";
+  const SmallDisk disk(folder, "64k");
+  if (!disk.mounted()) GTEST_SKIP() << SmallDisk::kWhyNot;
   auto large = full_analysis();
   large.warnings.assign(1, std::string(200000, 'w'));
-  const std::string message = failure(folder / "x.analysis", large);
-  const auto left = entries(folder);
+  EXPECT_THAT(failure(folder / "x.analysis", large),
+              AllOf(HasSubstr("No space left on device"), HasSubstr("--cache-dir")));
+  EXPECT_EQ(entries(folder), 0);
   store(folder / "small.analysis", full_analysis());
-  ASSERT_EQ(::umount(folder.c_str()), 0);
-  EXPECT_THAT(message, AllOf(HasSubstr("No space left on device"), HasSubstr("--cache-dir")));
-  EXPECT_EQ(left, 0);
+}
+
+// An error has to mean that nothing is stored, also after the next power failure.
+TEST_F(Store, FolderThatCannotBeSynced) {
+  const HookedSync hook([](bool of_folder) { return of_folder ? EIO : 0; });
+  EXPECT_THAT(failure(folder / "x.analysis", full_analysis()),
+              AllOf(HasSubstr("Input/output error"), HasSubstr("--cache-dir")));
+  EXPECT_EQ(entries(folder), 0);
 }
 
 TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
@@ -136,17 +118,6 @@ TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
   }
   std::printf("whole after %d of 30 kills, absent after the others\n", present);
   EXPECT_GT(present, 0) << "no kill came after a first store: the times are wrong";
-}
-
-TEST_F(Store, ManyWritersOfOneFile) {
-  std::vector<std::thread> writers;
-  for (int i = 0; i < 4; ++i)
-    writers.emplace_back([this] {
-      for (int j = 0; j < 20; ++j) store(folder / "x.analysis", full_analysis());
-    });
-  for (auto& writer : writers) writer.join();
-  EXPECT_TRUE(std::holds_alternative<analysis::AssetAnalysis>(load(folder / "x.analysis")));
-  EXPECT_EQ(entries(folder), 1);
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include "analysis_file/analysis_file.h"
 #include "analysis_file/codec.h"
-#include "analysis_file/file_io.h"
 #include "analysis_file/hash.h"
 #include "analysis_file/little_endian.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "files/file.h"
 
 namespace scene_analyzer::analysis_file {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kChunkBytes = 1 << 20;
 
 // Throws std::system_error.
 analysis::FileFingerprint read_fingerprint(const std::filesystem::path& path, std::string name) {
-  File file = File::open_regular(path);
+  files::File file = files::File::open_regular(path);
   std::vector<char> chunk(static_cast<std::size_t>(std::clamp<std::uint64_t>(file.size(), 1, kChunkBytes)));
   Hasher hasher;
   analysis::FileFingerprint fingerprint{std::move(name), true, 0, {}};
@@ -64,7 +64,7 @@ std::vector<analysis::FileFingerprint> fingerprint(const std::filesystem::path& 
   try {
     fingerprints.push_back(read_fingerprint(asset, own_name));
   } catch (const std::system_error& error) {
-    throw InputError("'" + asset.string() + "' cannot be read: " + describe(error.code()));
+    throw InputError("'" + asset.string() + "' cannot be read: " + files::describe(error.code()));
   }
   std::unordered_set<std::string> seen = {
       own_name};  // importers list the asset itself, and shared textures twice

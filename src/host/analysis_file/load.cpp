@@ -7,9 +7,9 @@
 #include "analysis_file/analysis_file.h"
 #include "analysis_file/codec.h"
 #include "analysis_file/envelope.h"
-#include "analysis_file/file_io.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "files/file.h"
 
 namespace scene_analyzer::analysis_file {
 namespace {
@@ -21,7 +21,7 @@ Unusable because(std::string reason) {
 // The size comes from the file system, never from the file's own claims.
 std::variant<std::string, Unusable> read_bytes(const std::filesystem::path& path) {
   try {
-    File file = File::open_regular(path);
+    files::File file = files::File::open_regular(path);
     const std::uint64_t size = file.size();
     if (size > kMaxFileBytes)
       return because("is too large for an analysis file: " + std::to_string(size) + " bytes");
@@ -31,7 +31,7 @@ std::variant<std::string, Unusable> read_bytes(const std::filesystem::path& path
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::no_such_file_or_directory || error.code() == std::errc::not_a_directory)
       return Unusable{true, "is absent"};
-    return because("cannot be read: " + describe(error.code()));
+    return because("cannot be read: " + files::describe(error.code()));
   }
 }
 

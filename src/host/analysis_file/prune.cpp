@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis_file/analysis_file.h"
-#include "analysis_file/temporary_name.h"
 #include "base/error.h"
+#include "files/temporary_name.h"
 
 namespace scene_analyzer::analysis_file {
 namespace {
@@ -36,7 +36,7 @@ struct Found {
 // Regular files only: links stay, and the iterator does not enter linked folders.
 void add_entry(const fs::directory_entry& item, Found& found) {
   const std::string name = item.path().filename().string();
-  const bool leftover = is_temporary_name(name);
+  const bool leftover = files::is_temporary_name(name);
   if (!leftover && !name.ends_with(".analysis")) return;
   std::error_code error;
   if (item.symlink_status(error).type() != fs::file_type::regular) return;

@@ -1,12 +1,13 @@
-#include "analysis_file/file_io.h"
+#include "files/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <utility>
 
-namespace scene_analyzer::analysis_file {
+namespace scene_analyzer::files {
 namespace {
 
 [[noreturn]] void fail(int error) {
@@ -41,8 +42,14 @@ File File::open_regular(const std::filesystem::path& path) {
   return file;
 }
 
-File File::create(const std::filesystem::path& path) {
-  const int descriptor = open_repeated(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+File File::open_for_writing(const std::filesystem::path& path) {
+  const int descriptor = open_repeated(path, O_WRONLY);
+  if (descriptor < 0) fail(errno);
+  return File(descriptor);
+}
+
+File File::create(const std::filesystem::path& path, mode_t mode) {
+  const int descriptor = open_repeated(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
   if (descriptor < 0) fail(errno);
   return File(descriptor);
 }
@@ -72,13 +79,11 @@ std::size_t File::read(std::span<char> bytes) {
 }
 
 void File::write(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(errno);
-    if (count == 0) fail(ENOSPC);  // no progress and no reason given: never loop on it
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
+  write_all(descriptor_, bytes);
+}
+
+void File::set_mode(mode_t mode) {
+  if (::fchmod(descriptor_, mode) != 0) fail(errno);
 }
 
 void File::sync() {
@@ -90,6 +95,16 @@ void File::close() {
   // Not repeated on EINTR: Linux has released the descriptor by then.
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
+}
+
+void write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(errno);
+    if (count == 0) fail(ENOSPC);  // no progress and no reason given: never loop on it
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
 }
 
 std::string describe(const std::error_code& code) {
@@ -110,4 +125,4 @@ void sync_folder(const std::filesystem::path& folder) {
   if (!synced && error != EINVAL && error != ENOTSUP && error != EINTR) fail(error);
 }
 
-}  // namespace scene_analyzer::analysis_file
+}  // namespace scene_analyzer::files
