@@ -3,11 +3,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <thread>
 
 #include "base/error.h"
 #include "report/fixture.h"
+#include "support/hooked_sync.h"
+#include "support/small_disk.h"
 
 namespace scene_analyzer::report {
 namespace {
@@ -92,6 +95,30 @@ TEST(WriteFile, NamesFileAndReason) {
   write_file(folder.path / "file", "");
   EXPECT_THAT(message_of(folder.path / "file" / "report.json"), HasSubstr("Not a directory"));
   EXPECT_THAT(message_of("/dev/full"), HasSubstr("No space left on device"));
+}
+
+TEST(WriteFile, OldReportStaysWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const SmallDisk disk(folder.path, "64k");
+  if (!disk.mounted()) GTEST_SKIP() << SmallDisk::kWhyNot;
+  const fs::path file = folder.path / "report.json";
+  write_file(file, "old");
+  try {
+    write_file(file, std::string(200000, 'x'));
+    ADD_FAILURE() << "the disk is not full";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), "cannot write " + file.string() + ": No space left on device");
+  }
+  EXPECT_EQ(contents_of(file), "old");
+  EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+// The report is there, and whole: no reason to call the run a failure.
+TEST(WriteFile, FolderThatCannotBeSyncedIsNoFailure) {
+  const TemporaryFolder folder;
+  const HookedSync hook([](bool of_folder) { return of_folder ? EIO : 0; });
+  write_file(folder.path / "report.json", "a");
+  EXPECT_EQ(contents_of(folder.path / "report.json"), "a");
 }
 
 TEST(WriteFile, DashIsStandardOutput) {
