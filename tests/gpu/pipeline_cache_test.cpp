@@ -2,6 +2,7 @@
 
 #include "gpu/device.h"
 #include "support/gpu_test.h"
+#include "support/small_disk.h"
 #include "support/temporary_folder.h"
 // Generated:
 #include "write_index.spv.h"
@@ -43,6 +44,8 @@ TEST_F(PipelineCacheTest, IsWrittenOnceAndReadBack) {
   const std::string contents = TemporaryFolder::read(file);
   EXPECT_GT(contents.size(), 32u);  // Vulkan's header and the checksum at least
 
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+
   const auto long_ago = fs::last_write_time(file) - std::chrono::hours(1);
   fs::last_write_time(file, long_ago);
   use(folder);
@@ -72,6 +75,30 @@ TEST_F(PipelineCacheTest, UnwritableFolderIsNoFailure) {
   use(file);
   EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("a file"));  // a warning names it
   EXPECT_EQ(TemporaryFolder::read(file), "not a folder");
+}
+
+TEST_F(PipelineCacheTest, FileThatCannotBeReplacedIsNoFailureAndLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  use(folder.path());
+  const fs::path file = only_file(folder.path());
+  fs::remove(file);
+  fs::create_directories(file / "in the way");
+  testing::internal::CaptureStdout();
+  use(folder.path());
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              testing::HasSubstr("writing the pipeline cache " + file.string() + ": Is a directory"));
+  EXPECT_EQ(only_file(folder.path()), file);
+}
+
+TEST_F(PipelineCacheTest, FullDiskIsNoFailureAndLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  const SmallDisk disk(folder.path(), "4k");
+  if (!disk.mounted()) GTEST_SKIP() << SmallDisk::kWhyNot;
+  const fs::path filler = folder.write("filler", std::string(4096, 'x'));
+  testing::internal::CaptureStdout();
+  use(folder.path());
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("No space left on device"));
+  EXPECT_EQ(only_file(folder.path()), filler);
 }
 
 TEST_F(PipelineCacheTest, WithoutFolderNothingIsWritten) {

@@ -1,15 +1,15 @@
 #include "gpu/pipeline_cache.h"
 
-#include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <span>
 #include <system_error>
+#include <utility>
+
+#include "files/file.h"
+#include "files/replace.h"
 
 namespace scene_analyzer::gpu {
 namespace {
@@ -32,60 +32,32 @@ std::uint64_t checksum(std::span<const std::uint8_t> data) {
   return XXH3_64bits(data.data(), data.size());
 }
 
+// Nothing for what is absent or cannot be read: what is wrong with it shows when it is written anew.
+std::optional<Bytes> read_whole(const fs::path& path) {
+  try {
+    files::File file = files::File::open_regular(path);
+    Bytes bytes(static_cast<std::size_t>(file.size()));
+    bytes.resize(file.read({reinterpret_cast<char*>(bytes.data()), bytes.size()}));
+    return bytes;
+  } catch (const std::system_error&) {
+    return std::nullopt;
+  }
+}
+
 // The driver's data, or nothing when the file is absent or damaged.
 Bytes read_sound(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return {};
-  Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  auto contents = read_whole(file);
+  if (!contents) return {};
+  Bytes& bytes = *contents;
   std::uint64_t stored = 0;
   if (bytes.size() > sizeof stored) {
     std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
     bytes.resize(bytes.size() - sizeof stored);
-    if (checksum(bytes) == stored) return bytes;
+    if (checksum(bytes) == stored) return std::move(bytes);
   }
   spdlog::warn("the pipeline cache {} is damaged and will be made anew", file.string());
   return {};
 }
-
-[[noreturn]] void fail(const std::string& doing, const fs::path& file) {
-  throw std::system_error(errno, std::generic_category(), doing + " the pipeline cache " + file.string());
-}
-
-// A file of its own beside the target: closed and removed unless renamed away.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : path_(target.string() + ".XXXXXX") {
-    descriptor_ = ::mkostemp(path_.data(), O_CLOEXEC);
-    if (descriptor_ < 0) fail("creating", path_);
-  }
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!renamed_) ::unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void write(std::span<const std::uint8_t> data) {
-    while (!data.empty()) {
-      const ssize_t written = ::write(descriptor_, data.data(), data.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail("writing", path_);
-      data = data.subspan(static_cast<std::size_t>(written));
-    }
-  }
-  void move_to(const fs::path& target) {
-    if (::fsync(descriptor_) != 0) fail("syncing", path_);
-    const int closed = ::close(std::exchange(descriptor_, -1));
-    if (closed != 0) fail("closing", path_);
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail("renaming", path_);
-    renamed_ = true;
-  }
-
- private:
-  std::string path_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
 
 }  // namespace
 
@@ -103,14 +75,18 @@ PipelineCache::PipelineCache(const vk::raii::Device& device, const vk::PhysicalD
 
 void PipelineCache::save() {
   if (file_.empty() || *cache_ == vk::PipelineCache{}) return;
-  const Bytes data = cache_.getData();
+  Bytes data = cache_.getData();
   const std::uint64_t sum = checksum(data);
   if (loaded_ && sum == loaded_checksum_) return;
   fs::create_directories(file_.parent_path());
-  TemporaryFile temporary(file_);
-  temporary.write(data);
-  temporary.write({reinterpret_cast<const std::uint8_t*>(&sum), sizeof sum});
-  temporary.move_to(file_);
+  const auto* sum_bytes = reinterpret_cast<const std::uint8_t*>(&sum);
+  data.insert(data.end(), sum_bytes, sum_bytes + sizeof sum);
+  const auto* bytes = reinterpret_cast<const char*>(data.data());
+  try {
+    files::replace(file_, {bytes, data.size()}, {.mode = 0600});
+  } catch (const std::system_error& error) {
+    throw std::system_error(error.code(), "writing the pipeline cache " + file_.string());
+  }
 }
 
 }  // namespace scene_analyzer::gpu
