@@ -2,8 +2,16 @@ test_binary(cli
   SOURCES option_parsing_test.cpp analyze_options_test.cpp interrupt_test.cpp messages_test.cpp
           selftest_test.cpp
           run_program.cpp analyze_test.cpp histograms_test.cpp bad_input_test.cpp commands_test.cpp
+          device_limit_test.cpp
   LINK cli reference nlohmann_json::nlohmann_json util)
-add_dependencies(cli_test scene-analyzer)
+# The layer is opened by Vulkan's loader, which finds it through the manifest.
+set(test_layers ${CMAKE_BINARY_DIR}/test-layers)
+add_library(small_device_layer MODULE cli/small_device_layer.cpp)
+target_include_directories(small_device_layer PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+target_link_libraries(small_device_layer PRIVATE Vulkan::Headers)
+file(GENERATE OUTPUT ${test_layers}/small_device_layer.json INPUT ${CMAKE_CURRENT_SOURCE_DIR}/cli/small_device_layer.json.in)
+add_dependencies(cli_test scene-analyzer small_device_layer)
 target_compile_definitions(cli_test PRIVATE
   SCENE_ANALYZER_BINARY="$<TARGET_FILE:scene-analyzer>"
-  SCENE_ANALYZER_TEST_CACHE="${CMAKE_BINARY_DIR}/test-cache")
+  SCENE_ANALYZER_TEST_CACHE="${CMAKE_BINARY_DIR}/test-cache"
+  SCENE_ANALYZER_TEST_LAYERS="${test_layers}")
