@@ -5,10 +5,12 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <random>
 #include <thread>
 #include <vector>
@@ -25,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::IsEmpty;
+
+int equal_names = 0;  // how many of the next names are the same one
 
 class Replace : public testing::Test {
  protected:
@@ -172,6 +176,19 @@ TEST_F(Replace, AFullDiskLeavesTheOldFile) {
   EXPECT_EQ(failure(file, std::string(30000, 'x')), 0);  // what was written in vain is free again
 }
 
+TEST_F(Replace, ANameThatIsTakenIsAnotherOnes) {
+  equal_names = 1;
+  const fs::path taken = folder.write(temporary_name(), "another's");
+  equal_names = 3;
+  replace(file, "new");
+  EXPECT_EQ(TemporaryFolder::read(file), "new");
+  equal_names = 1000;
+  EXPECT_EQ(failure(file, "newer"), EEXIST);  // not for ever
+  equal_names = 0;
+  EXPECT_EQ(TemporaryFolder::read(file), "new");
+  EXPECT_EQ(TemporaryFolder::read(taken), "another's");
+}
+
 // --- Others at the same time, and an end at any moment. ---
 
 TEST_F(Replace, ManyWritersOfOneFile) {
@@ -218,3 +235,13 @@ TEST_F(Replace, KilledAtAnyMomentLeavesAWholeFile) {
 
 }  // namespace
 }  // namespace scene_analyzer::files
+
+// Takes the place of the C library's for the whole program: where names come from.
+extern "C" int getentropy(void* buffer, size_t length) {
+  if (scene_analyzer::files::equal_names > 0) {
+    --scene_analyzer::files::equal_names;
+    std::memset(buffer, 0x5a, length);
+    return 0;
+  }
+  return ::syscall(SYS_getrandom, buffer, length, 0) == static_cast<long>(length) ? 0 : -1;
+}
