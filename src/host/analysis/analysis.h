@@ -18,10 +18,11 @@ namespace scene_analyzer::analysis {
 
 // What changes stored results. `steps` concerns rendering time only.
 struct Parameters {
-  double alpha_degrees = 0;   // planar groups: largest angle between neighbours' normals, [0, 180]
-  std::uint32_t dim = 20000;  // co-occurrence: largest number of area classes, >= 2
-  double weld_tolerance = 0;  // local units, >= 0
-  std::uint32_t steps = 8;    // rendering time: rotations per axis, >= 1
+  double alpha_degrees = 0;              // planar groups: largest angle between neighbours' normals, [0, 180]
+  std::uint32_t dim = 20000;             // co-occurrence: largest number of area classes, >= 2
+  double weld_tolerance = 0;             // local units, >= 0
+  std::uint32_t steps = 8;               // rendering time: rotations per axis, >= 1
+  std::uint64_t start_searches = 20000;  // Fourier transform: work on a component's start triangle, >= 1
   bool operator==(const Parameters&) const = default;
 };
 
@@ -29,6 +30,16 @@ struct Bounds {
   mesh::Vector3 min{};
   mesh::Vector3 max{};
   bool operator==(const Bounds&) const = default;
+};
+
+// The one-dimensional signal behind the Fourier rating: areas by distance from the start triangle.
+struct SignalSummary {
+  std::uint64_t length = 0;          // triangles that have a neighbour
+  std::uint32_t start_triangle = 0;  // of the largest component: index in the mesh
+  double mean_distance = 0;          // from there to the other triangles of its component, along the surface
+  double gap = 0;  // no triangle's mean distance is larger by more than this, relative; 0: proven the largest
+  std::uint64_t searches = 0;  // work on the start triangle, in searches of the whole component
+  bool operator==(const SignalSummary&) const = default;
 };
 
 // One geometry: a mesh of the asset in its local coordinates, or, under nodes whose linear part is not a
@@ -50,8 +61,9 @@ struct GeometryAnalysis {
   std::optional<double> polygons_per_planar_group;
   std::optional<double> planar_group_variation;
   std::optional<double> cooccurrence_contrast;
-  std::optional<double> fourier_transform;  // not computed yet
-  std::string not_analysed;                 // why everything above is absent, with need and limit; or empty
+  std::optional<double> fourier_transform;
+  std::optional<SignalSummary> signal;  // absent where fourier_transform is; its length may be 0
+  std::string not_analysed;             // why everything above is absent, with need and limit; or empty
 };
 
 struct InstanceAnalysis {

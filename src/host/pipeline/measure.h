@@ -12,6 +12,7 @@
 
 #include "analysis/analysis.h"
 #include "analysis/histogram.h"
+#include "analysis/signal.h"
 #include "gpu/device.h"
 #include "mesh/scene.h"
 
@@ -25,6 +26,10 @@ using Progress = std::function<void(double fraction, const std::string& step)>;
 // Takes the co-occurrence histogram of one geometry with a kept triangle, counts and bounds of which are
 // already in the analysis. May be called again for a geometry whose batch ran out of memory: the last counts.
 using HistogramSink = std::function<void(std::uint32_t geometry, const analysis::Histogram& histogram)>;
+
+// Takes the signal of one geometry whose `signal` summary is already in the analysis. May be called again, as
+// above.
+using SignalSink = std::function<void(std::uint32_t geometry, const analysis::SignalSpectrum& signal)>;
 
 class Measurer {
  public:
