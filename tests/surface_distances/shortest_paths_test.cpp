@@ -1,0 +1,132 @@
+#include "surface_distances/shortest_paths.h"
+
+#include <gtest/gtest.h>
+
+#include "surface_distances/lane_search.h"
+#include "surface_distances/surfaces.h"
+
+namespace scene_analyzer::surface_distances {
+namespace {
+
+// A random graph with arcs both ways, connected by a path through all nodes.
+template <typename Length>
+DualGraph random_graph(std::uint32_t nodes, std::uint32_t extra, std::uint64_t seed, Length length) {
+  test_meshes::Random random(seed);
+  reference::SurfaceArcs arcs;
+  arcs.from.resize(nodes);
+  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
+    const double l = length(random);
+    arcs.from[a].push_back({b, l});
+    arcs.from[b].push_back({a, l});
+  };
+  for (std::uint32_t v = 1; v < nodes; ++v) connect(v - 1, v);
+  for (std::uint32_t i = 0; i < extra; ++i)
+    connect(static_cast<std::uint32_t>(random.below(nodes)), static_cast<std::uint32_t>(random.below(nodes)));
+  DualGraph graph{.triangles = nodes, .first = {0}, .target = {}, .length = {}};
+  for (const auto& from : arcs.from) {
+    for (const auto& arc : from) {
+      graph.target.push_back(arc.target);
+      graph.length.push_back(arc.length);
+    }
+    graph.first.push_back(static_cast<std::uint32_t>(graph.target.size()));
+  }
+  return graph;
+}
+
+reference::SurfaceArcs arcs_of(const DualGraph& graph) {
+  reference::SurfaceArcs arcs;
+  arcs.from.resize(graph.nodes());
+  for (std::uint32_t v = 0; v < graph.nodes(); ++v)
+    for (std::uint32_t arc = graph.first[v]; arc < graph.first[v + 1]; ++arc)
+      arcs.from[v].push_back({graph.target[arc], graph.length[arc]});
+  return arcs;
+}
+
+void expect_dijkstra(const DualGraph& graph, const char* what) {
+  const reference::SurfaceArcs arcs = arcs_of(graph);
+  ShortestPaths paths(graph);
+  std::vector<double> distances(graph.nodes());
+  for (const std::uint32_t source : {0U, graph.nodes() / 2, graph.nodes() - 1}) {
+    paths.run(source, distances);
+    EXPECT_EQ(distances, reference::surface_distances(arcs, source)) << what << ", from " << source;
+  }
+}
+
+TEST(ShortestPaths, AreBitIdenticalToDijkstra) {
+  for (const std::uint32_t nodes : {1U, 2U, 3U, 63U, 1000U, 5000U}) {
+    expect_dijkstra(random_graph(nodes, nodes, nodes, [](auto& random) { return random.unit(); }), "uniform");
+    expect_dijkstra(random_graph(nodes, nodes, nodes, [](auto&) { return 1.0; }), "equal");
+    expect_dijkstra(random_graph(nodes, nodes, nodes, [](auto&) { return 0.0; }), "zero");
+  }
+}
+
+TEST(ShortestPaths, SurviveLengthsOfAllMagnitudes) {
+  const auto wide = [](auto& random) { return std::pow(10.0, random.between(-300, 300)); };
+  const auto tiny = [](auto& random) { return random.below(1000) == 0 ? 1e9 : random.unit() * 1e-9; };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    expect_dijkstra(random_graph(3000, 3000, seed, wide), "wide");
+    expect_dijkstra(random_graph(3000, 3000, seed, tiny), "tiny");
+  }
+}
+
+// Label correction visits nodes of this ladder exponentially often in the worst order; the heap must take
+// over.
+TEST(ShortestPaths, GiveUpBucketsThatVisitNodesTooOften) {
+  constexpr std::uint32_t kSteps = 2000;
+  reference::SurfaceArcs arcs;
+  arcs.from.resize(2 * kSteps + 1);
+  const auto connect = [&](std::uint32_t a, std::uint32_t b, double length) {
+    arcs.from[a].push_back({b, length});
+  };
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const double step = 1e-6 * (kSteps - i);
+    connect(2 * i, 2 * i + 2, step);
+    connect(2 * i, 2 * i + 1, 0);
+    connect(2 * i + 1, 2 * i + 2, step / 2);
+  }
+  connect(0, 2 * kSteps, 1e6);
+  DualGraph graph{.triangles = 2 * kSteps + 1, .first = {0}, .target = {}, .length = {}};
+  for (const auto& from : arcs.from) {
+    for (const auto& arc : from) {
+      graph.target.push_back(arc.target);
+      graph.length.push_back(arc.length);
+    }
+    graph.first.push_back(static_cast<std::uint32_t>(graph.target.size()));
+  }
+  expect_dijkstra(graph, "ladder");
+}
+
+TEST(LaneSearch, IsBitIdenticalToDijkstraInEveryLane) {
+  for (const auto& mesh :
+       {test_meshes::geosphere(9), test_meshes::torus(31, 17), test_meshes::heightfield(20, 1, 4),
+        test_meshes::shuffled(test_meshes::prism(20, 12, 1, 3), 5)}) {
+    const TwinSurface twin(mesh);
+    const DualGraph graph = graph_of(twin);
+    std::vector<double> distances(graph.nodes());
+    ShortestPaths(graph).run(5, distances);
+    std::vector<std::uint32_t> row;
+    const LaneGraph rows = order_by_distance(graph, distances, row);
+    LaneSearch search;
+    test_meshes::Random random(7);
+    for (const std::size_t sources : {1U, 2U, 15U, 16U}) {
+      std::vector<std::uint32_t> nodes, source_rows;
+      for (std::size_t i = 0; i < sources; ++i) {
+        nodes.push_back(static_cast<std::uint32_t>(random.below(graph.nodes())));
+        source_rows.push_back(row[nodes.back()]);
+      }
+      for (const std::uint32_t near : {0U, 100U, graph.nodes()}) {
+        search.run(rows, source_rows, near);
+        const auto totals = search.totals(rows);
+        for (std::size_t lane = 0; lane < sources; ++lane) {
+          const auto expected = reference::surface_distances(twin.arcs, nodes[lane]);
+          for (std::uint32_t v = 0; v < graph.nodes(); ++v)
+            ASSERT_EQ(search.distances()[row[v]].of[lane], expected[v]) << mesh.name << ", near " << near;
+          EXPECT_NEAR(totals[lane], reference::total_distance(twin.arcs, nodes[lane]), 1e-12 * totals[lane]);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scene_analyzer::surface_distances
