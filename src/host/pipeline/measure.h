@@ -2,7 +2,8 @@
 //
 // Geometries are deduplicated first (instances under similarity transforms share one), cut into batches by
 // the device's memory and buffer limits, and each batch runs through welding, areas, adjacency, planar
-// groups, area classes and co-occurrence.
+// groups, area classes and co-occurrence, while the host searches start triangles for the signals whose
+// spectra come last.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,7 @@
 
 namespace scene_analyzer::pipeline {
 
+struct Measurement;
 struct PlannedBatch;
 
 // Called between steps: fraction done of the current asset in [0,1] and what is being done ("planar groups").
@@ -40,17 +42,17 @@ class Measurer {
   // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit.
   // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes
   // per triangle (about 250 where all edges have more than two triangles). Histograms are computed only for a
-  // sink.
+  // sink. The Fourier transform's start triangles are searched on all processors of the host, see
+  // surface_distances/start_triangle.h for cost and memory there.
   void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
                const Progress& progress, analysis::AssetAnalysis& analysis,
-               const HistogramSink& histograms = {});
+               const HistogramSink& histograms = {}, const SignalSink& signals = {});
 
   struct Stages;  // kernels of every stage
 
  private:
-  void measure_batch(const PlannedBatch& plan, const analysis::Parameters& parameters,
-                     analysis::MetricSet metrics, const std::function<void(const char*)>& step,
-                     analysis::AssetAnalysis& analysis, const HistogramSink& histograms);
+  void measure_batch(const PlannedBatch& plan, const Measurement& measurement,
+                     const std::function<void(double, const char*)>& step);
 
   std::unique_ptr<Stages> stages_;
 };

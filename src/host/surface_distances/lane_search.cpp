@@ -16,6 +16,11 @@
 namespace scene_analyzer::surface_distances {
 namespace {
 
+// Where more than one of so many rows are near, all are treated like those.
+constexpr std::uint32_t kNearParts = 4;
+// Steps per row after which lanes are searched one by one: by then that would have been done.
+constexpr std::uint64_t kMostSteps = 5;
+
 // target = min(target, source + length) in every lane; whether that changed anything.
 inline bool relax(const Lanes& source, double length, Lanes& target) {
   Lanes lower;
@@ -31,14 +36,16 @@ inline bool relax(const Lanes& source, double length, Lanes& target) {
 }
 
 // Always goes on at the lowest waiting row: an improvement behind is spread before anything ahead is built on
-// it.
-WIDEST_VECTORS void spread(const LaneGraph& graph, Lanes* distances, std::uint64_t* waiting,
-                           std::size_t words) {
+// it. False after too many steps, with rows still waiting.
+WIDEST_VECTORS bool spread(const LaneGraph& graph, Lanes* distances, std::uint64_t* waiting,
+                           std::size_t words, std::uint64_t most_steps) {
+  std::uint64_t steps = 0;
   for (std::size_t word = 0; word < words;) {
     if (waiting[word] == 0) {
       ++word;
       continue;
     }
+    if (++steps > most_steps) return false;
     const auto row =
         static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(waiting[word]));
     waiting[word] &= waiting[word] - 1;
@@ -49,6 +56,7 @@ WIDEST_VECTORS void spread(const LaneGraph& graph, Lanes* distances, std::uint64
       word = std::min<std::size_t>(word, target / 64);
     }
   }
+  return true;
 }
 
 WIDEST_VECTORS void add_up(const LaneGraph& graph, const Lanes* distances,
@@ -123,34 +131,41 @@ LaneGraph order_by_distance(const LaneGraph& graph, std::span<const double> dist
 }
 
 void LaneSearch::run(const LaneGraph& graph, std::span<const std::uint32_t> sources, std::uint32_t near) {
+  distances_.resize(graph.rows());
+  if (near <= graph.rows() / kNearParts && search_together(graph, sources, near)) return;
+  search_apart(graph, sources, graph.rows());
+}
+
+// False where the order of rows serves the lanes so badly that searches one by one are cheaper.
+bool LaneSearch::search_together(const LaneGraph& graph, std::span<const std::uint32_t> sources,
+                                 std::uint32_t near) {
   Lanes unreached;
   unreached.of.fill(std::numeric_limits<double>::infinity());
-  distances_.assign(graph.rows(), unreached);
+  std::ranges::fill(distances_, unreached);
   waiting_.assign((graph.rows() + 63) / 64, 0);
+  const auto wait = [&](std::uint32_t row) { waiting_[row / 64] |= std::uint64_t{1} << row % 64; };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const std::uint32_t row = sources[lane < sources.size() ? lane : 0];
     distances_[row].of[lane] = 0;
-    waiting_[row / 64] |= std::uint64_t{1} << row % 64;
+    wait(row);
   }
-  search_near(graph, sources, near);
-  spread(graph, distances_.data(), waiting_.data(), waiting_.size());
+  if (std::ranges::all_of(sources, [&](std::uint32_t row) { return row < near; })) {
+    search_apart(graph, sources, near);
+    for (std::uint32_t row = 0; row < near; ++row) wait(row);
+  }
+  return spread(graph, distances_.data(), waiting_.data(), waiting_.size(), kMostSteps * graph.rows());
 }
 
-void LaneSearch::search_near(const LaneGraph& graph, std::span<const std::uint32_t> sources,
-                             std::uint32_t near) {
-  if (near == 0) return;
-  near_paths_.use({graph.first, graph.target, graph.length}, near);
-  near_distances_.resize(near);
+// On the part of the graph that rows [0, rows) make.
+void LaneSearch::search_apart(const LaneGraph& graph, std::span<const std::uint32_t> sources,
+                              std::uint32_t rows) {
+  paths_.use({graph.first, graph.target, graph.length}, rows);
+  row_distances_.resize(rows);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (lane < sources.size() && sources[lane] >= near) continue;
-    if (lane < sources.size())
-      near_paths_.run(sources[lane], near_distances_);
-    else if (sources[0] >= near)
-      continue;
-    for (std::uint32_t row = 0; row < near; ++row)
-      distances_[row].of[lane] = lane < sources.size() ? near_distances_[row] : distances_[row].of[0];
+    if (lane < sources.size()) paths_.run(sources[lane], row_distances_);
+    for (std::uint32_t row = 0; row < rows; ++row)
+      distances_[row].of[lane] = lane < sources.size() ? row_distances_[row] : distances_[row].of[0];
   }
-  for (std::uint32_t row = 0; row < near; ++row) waiting_[row / 64] |= std::uint64_t{1} << row % 64;
 }
 
 std::array<double, kLanes> LaneSearch::totals(const LaneGraph& graph) const {

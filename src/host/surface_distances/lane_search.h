@@ -51,11 +51,12 @@ class LaneSearch {
   std::array<double, kLanes> totals(const LaneGraph& graph) const;
 
  private:
-  void search_near(const LaneGraph& graph, std::span<const std::uint32_t> sources, std::uint32_t near);
+  bool search_together(const LaneGraph& graph, std::span<const std::uint32_t> sources, std::uint32_t near);
+  void search_apart(const LaneGraph& graph, std::span<const std::uint32_t> sources, std::uint32_t rows);
 
   std::vector<Lanes> distances_;
-  ShortestPaths near_paths_;
-  std::vector<double> near_distances_;
+  ShortestPaths paths_;
+  std::vector<double> row_distances_;   // of one lane
   std::vector<std::uint64_t> waiting_;  // a bit per row that has to be looked at
 };
 

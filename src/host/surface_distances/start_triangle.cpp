@@ -24,7 +24,10 @@ constexpr std::size_t kScouts = 16;
 constexpr double kWorthwhile = 0.002;
 // ... unless so few are left that patches would take longer.
 constexpr std::size_t kFew = 64;
+// Patches: larger ones share more, but across wide ones shortest paths have too little in common.
 constexpr std::size_t kPatchSize = 4096;
+constexpr std::size_t kLeastPatch = 128;
+constexpr double kPatchReach = 0.15;  // of the component's extent
 constexpr double kLevel =
     1e-11;  // totals closer than this to the best cannot raise it by anything that counts
 
@@ -85,6 +88,7 @@ class StartSearch {
     paths_[0]->run(0, distances_[0]);
     work_ += graph_.nodes();
     const auto triangles = std::span(distances_[0]).first(graph_.triangles);
+    extent_ = *std::ranges::max_element(triangles);
     search({static_cast<std::uint32_t>(std::ranges::max_element(triangles) - triangles.begin())});
   }
 
@@ -163,14 +167,22 @@ class StartSearch {
       std::vector<std::pair<float, std::uint32_t>> near;
       for (const std::uint32_t v : open)
         near.emplace_back(v == centre ? -1 : candidates_.about_distance(v, centre), v);
-      const std::size_t taken = std::min(size, near.size());
-      std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(taken) - 1);
-      std::ranges::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(taken));
+      const std::size_t taken = keep_nearest(near, size);
       auto& patch = patches.emplace_back();
       open.clear();
       for (std::size_t i = 0; i < near.size(); ++i) (i < taken ? patch : open).push_back(near[i].second);
     }
     return patches;
+  }
+
+  // Sorts the front of `near`: what makes a patch. Returns how many that are.
+  std::size_t keep_nearest(std::vector<std::pair<float, std::uint32_t>>& near, std::size_t size) const {
+    const std::size_t most = std::min(size, near.size());
+    std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(most) - 1);
+    std::ranges::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most));
+    std::size_t taken = std::min(kLeastPatch, most);
+    while (taken < most && near[taken].first <= kPatchReach * extent_) ++taken;
+    return taken;
   }
 
   // True totals for all that may be larger than the best.
@@ -234,7 +246,8 @@ class StartSearch {
   std::vector<std::unique_ptr<ShortestPaths>> paths_;    // per thread
   std::vector<std::unique_ptr<PatchBounder>> bounders_;  // per thread, made when needed
   std::vector<std::vector<double>> distances_;           // per source of a round
-  std::uint64_t work_ = 0;                               // sources x rows
+  double extent_ = 0;       // how far the farthest triangle is from some triangle
+  std::uint64_t work_ = 0;  // sources x rows
 };
 
 }  // namespace

@@ -1,0 +1,206 @@
+#include "pipeline/batch_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "gpu/error.h"
+#include "pipeline/geometry_table.h"
+#include "ratings/ratings.h"
+
+namespace scene_analyzer::pipeline {
+namespace {
+
+using analysis::GeometryAnalysis;
+using analysis::Metric;
+using interface::mesh::GeometryTotals;
+
+void fill_geometry(GeometryAnalysis& geometry, const GeometryTotals& totals) {
+  geometry.triangles = totals.kept;
+  geometry.degenerate_triangles = totals.degenerate;
+  geometry.surface_area = totals.area;
+}
+
+void fill_topology(GeometryAnalysis& geometry, const interface::adjacency::TopologyTotals& totals) {
+  geometry.components = totals.components;
+  geometry.isolated_triangles = totals.isolated;
+  geometry.boundary_edges = totals.boundary_edges;
+  geometry.non_manifold_edges = totals.non_manifold_edges;
+}
+
+void fill_planar(GeometryAnalysis& geometry, const interface::planar_groups::PlanarTotals& totals,
+                 analysis::MetricSet metrics) {
+  geometry.planar_groups = totals.groups;
+  geometry.largest_planar_group = totals.largest;
+  if (geometry.triangles == 0) return;
+  if (metrics.test(analysis::index_of(Metric::kPolygonsPerPlanarGroup)))
+    geometry.polygons_per_planar_group =
+        ratings::polygons_per_planar_group(geometry.triangles, totals.groups);
+  if (metrics.test(analysis::index_of(Metric::kPlanarGroupVariation)))
+    geometry.planar_group_variation =
+        ratings::planar_group_variation(geometry.triangles, totals.squared_sizes);
+}
+
+void fill_contrast(GeometryAnalysis& geometry, double sum, std::uint64_t classes) {
+  geometry.area_classes = classes;
+  if (geometry.triangles == 0) return;
+  const std::uint64_t with_neighbour = geometry.triangles - *geometry.isolated_triangles;
+  // Rounding may carry the mean of values in [0,1] a last bit beyond.
+  geometry.cooccurrence_contrast =
+      with_neighbour == 0 ? 0 : std::min(1.0, sum / static_cast<double>(with_neighbour));
+}
+
+}  // namespace
+
+void BatchRun::run() {
+  step_(0, "areas and adjacency");
+  measure_geometry();
+  SignalSearch search;
+  if (wants(Metric::kFourierTransform)) search_signals(search);
+  if (wants(Metric::kPolygonsPerPlanarGroup) || wants(Metric::kPlanarGroupVariation)) {
+    step_(0.1, "planar groups");
+    find_planar_groups();
+  }
+  step_(0.2, "bounds");
+  bound_instances();
+  if (wants(Metric::kCooccurrenceContrast) || histograms_) {
+    step_(0.2, "co-occurrence");
+    compare_areas();
+  }
+  geometry_ = {};
+  adjacency_ = {};
+  if (!search.started()) return;
+  step_(0.3, "start triangles");
+  const auto signals =
+      search.finish([&](double fraction) { step_(0.3 + 0.6 * fraction, "start triangles"); });
+  step_(0.9, "spectra");
+  transform_signals(signals);
+}
+
+void BatchRun::search_signals(SignalSearch& search) {
+  search.start(stages_.arcs.measure(stages_.device, geometry_, adjacency_), plan_,
+               parameters_.start_searches);
+}
+
+void BatchRun::transform_signals(const std::vector<surface_distances::Signal>& signals) {
+  for (std::size_t mesh = 0; mesh < signals.size(); ++mesh) {
+    if (totals_[mesh].kept == 0) continue;
+    const surface_distances::Signal& signal = signals[mesh];
+    target(mesh).signal = analysis::SignalSummary{.length = signal.areas.size(),
+                                                  .start_triangle = signal.start_triangle,
+                                                  .mean_distance = signal.mean_distance,
+                                                  .gap = signal.gap,
+                                                  .searches = signal.searches};
+  }
+  std::vector<std::span<const double>> samples;
+  for (const surface_distances::Signal& signal : signals) samples.emplace_back(signal.areas);
+  spectrum::MagnitudeSink magnitudes;
+  if (signals_)
+    magnitudes = [&](std::size_t mesh, std::span<const double> values) {
+      if (totals_[mesh].kept > 0)
+        signals_(plan_.geometries[mesh], {.areas = samples[mesh], .magnitudes = values});
+    };
+  const auto spectra = stages_.spectra.transform(samples, magnitudes);
+  for (std::size_t mesh = 0; mesh < signals.size(); ++mesh)
+    if (totals_[mesh].kept > 0)
+      target(mesh).fourier_transform =
+          ratings::fourier_transform(spectra[mesh].zero, spectra[mesh].largest, spectra[mesh].sum,
+                                     spectra[mesh].weighted_sum, samples[mesh].size());
+}
+
+void BatchRun::measure_geometry() {
+  gpu::Recorder recorder(stages_.device);
+  geometry_ = stages_.geometry.record(recorder, plan_.batch, parameters_.weld_tolerance);
+  auto matching = stages_.adjacency.record_matching(recorder, geometry_);
+  recorder.submit_and_wait();
+  adjacency_ = stages_.adjacency.complete(stages_.device, geometry_, std::move(matching));
+  totals_ = geometry_.results(stages_.device);
+  const auto topology = geometry_.chunks.results(stages_.device, adjacency_.totals);
+  for (std::size_t mesh = 0; mesh < totals_.size(); ++mesh) {
+    fill_geometry(target(mesh), totals_[mesh]);
+    fill_topology(target(mesh), topology[mesh]);
+  }
+  adjacency_.labels = {};  // components are counted: free them for the stages to come
+}
+
+void BatchRun::find_planar_groups() {
+  gpu::Recorder recorder(stages_.device);
+  const auto groups = stages_.planar.record(recorder, geometry_, adjacency_, parameters_.alpha_degrees);
+  recorder.submit_and_wait();
+  const auto totals = geometry_.chunks.results(stages_.device, groups.totals);
+  for (std::size_t mesh = 0; mesh < totals.size(); ++mesh) fill_planar(target(mesh), totals[mesh], metrics_);
+}
+
+void BatchRun::bound_instances() {
+  std::vector<std::uint32_t> mesh_of_geometry(analysis_.geometries.size(), interface::mesh::kNone);
+  for (std::uint32_t mesh = 0; mesh < plan_.geometries.size(); ++mesh)
+    mesh_of_geometry[plan_.geometries[mesh]] = mesh;
+  std::vector<geometry::InstanceToBound> to_bound;
+  std::vector<analysis::InstanceAnalysis*> targets;
+  for (analysis::InstanceAnalysis& instance : analysis_.instances) {
+    const std::uint32_t mesh = mesh_of_geometry[instance.geometry];
+    if (mesh == interface::mesh::kNone || totals_[mesh].kept == 0) continue;
+    if (!std::all_of(instance.world.begin(), instance.world.end(),
+                     [](double entry) { return std::isfinite(entry); }))
+      continue;  // nowhere: bounds stay absent
+    const GeometryTotals& totals = totals_[mesh];
+    analysis::Bounds local;
+    std::copy(totals.low.begin(), totals.low.end(), local.min.begin());
+    std::copy(totals.high.begin(), totals.high.end(), local.max.begin());
+    instance.bounds = carry_bounds(local, instance.world);
+    if (instance.bounds) continue;
+    to_bound.push_back({.mesh = mesh, .world = instance.world});
+    targets.push_back(&instance);
+  }
+  const auto bounds = stages_.geometry.bound_instances(stages_.device, geometry_, to_bound);
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    targets[i]->bounds = analysis::Bounds{.min = {bounds[i][0], bounds[i][2], bounds[i][4]},
+                                          .max = {bounds[i][1], bounds[i][3], bounds[i][5]}};
+}
+
+void BatchRun::compare_areas() {
+  const bool contrast = wants(Metric::kCooccurrenceContrast);
+  const auto kept = [](const GeometryTotals& totals) { return totals.kept > 0; };
+  if (std::none_of(totals_.begin(), totals_.end(), kept)) {
+    for (std::size_t mesh = 0; contrast && mesh < totals_.size(); ++mesh) fill_contrast(target(mesh), 0, 0);
+    return;
+  }
+  cooccurrence::AreaClasses classes;
+  {
+    gpu::Recorder recorder(stages_.device);
+    classes = stages_.classes.record(recorder, geometry_, totals_);
+    recorder.submit_and_wait();
+  }
+  stages_.classes.limit(stages_.device, classes, parameters_.dim);
+  if (contrast) sum_contrast(classes);
+  if (histograms_) count_histograms(classes);
+}
+
+void BatchRun::sum_contrast(const cooccurrence::AreaClasses& classes) {
+  gpu::Recorder recorder(stages_.device);
+  const auto partial = stages_.contrast.record(recorder, geometry_, adjacency_, classes);
+  recorder.submit_and_wait();
+  const auto sums = geometry_.chunks.results(stages_.device, partial);
+  for (std::size_t mesh = 0; mesh < sums.size(); ++mesh)
+    fill_contrast(target(mesh), sums[mesh], classes.counts[mesh]);
+}
+
+void BatchRun::count_histograms(const cooccurrence::AreaClasses& classes) {
+  if (!stages_.histograms) stages_.histograms.emplace(stages_.device, stages_.scan, stages_.sort);
+  const auto hand_over = [&](std::size_t mesh, const analysis::Histogram& histogram) {
+    if (totals_[mesh].kept > 0) histograms_(plan_.geometries[mesh], histogram);
+  };
+  try {
+    stages_.histograms->build(stages_.device, geometry_, adjacency_, classes, hand_over);
+  } catch (const gpu::OutOfMemory& error) {
+    if (plan_.geometries.size() > 1) throw;  // each mesh will have the device for itself
+    // The ratings are there: no reason to lose them.
+    analysis::Histogram missing;
+    missing.refused = error.what();
+    hand_over(0, missing);
+  }
+}
+
+}  // namespace scene_analyzer::pipeline

@@ -1,0 +1,69 @@
+// batch_run.h — One batch of meshes on its way through the stages.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "pipeline/batching.h"
+#include "pipeline/signal_search.h"
+#include "pipeline/stages.h"
+
+namespace scene_analyzer::pipeline {
+
+// What a run reads and fills, the same for all batches of a scene.
+struct Measurement {
+  const analysis::Parameters& parameters;
+  analysis::MetricSet metrics;
+  analysis::AssetAnalysis& analysis;
+  const HistogramSink& histograms;
+  const SignalSink& signals;
+};
+
+class BatchRun {
+ public:
+  // Part of the batch that is done in [0,1], and what comes next.
+  using Step = std::function<void(double fraction, const char* what)>;
+
+  BatchRun(Measurer::Stages& stages, const PlannedBatch& plan, const Measurement& measurement,
+           const Step& step)
+      : stages_(stages),
+        plan_(plan),
+        parameters_(measurement.parameters),
+        metrics_(measurement.metrics),
+        analysis_(measurement.analysis),
+        histograms_(measurement.histograms),
+        signals_(measurement.signals),
+        step_(step) {}
+
+  // Start triangles are searched on the host while the device goes on with the other stages.
+  void run();
+
+ private:
+  analysis::GeometryAnalysis& target(std::size_t mesh) {
+    return analysis_.geometries[plan_.geometries[mesh]];
+  }
+  bool wants(analysis::Metric metric) const { return metrics_.test(analysis::index_of(metric)); }
+
+  void measure_geometry();
+  void search_signals(SignalSearch& search);
+  void find_planar_groups();
+  void bound_instances();
+  void compare_areas();
+  void sum_contrast(const cooccurrence::AreaClasses& classes);
+  void count_histograms(const cooccurrence::AreaClasses& classes);
+  void transform_signals(const std::vector<surface_distances::Signal>& signals);
+
+  Measurer::Stages& stages_;
+  const PlannedBatch& plan_;
+  const analysis::Parameters& parameters_;
+  analysis::MetricSet metrics_;
+  analysis::AssetAnalysis& analysis_;
+  const HistogramSink& histograms_;
+  const SignalSink& signals_;
+  const Step& step_;
+  geometry::Geometry geometry_;
+  adjacency::Adjacency adjacency_;
+  std::vector<interface::mesh::GeometryTotals> totals_;
+};
+
+}  // namespace scene_analyzer::pipeline
