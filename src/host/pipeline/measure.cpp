@@ -260,7 +260,8 @@ void Measurer::measure_batch(const PlannedBatch& plan, const analysis::Parameter
 
 void Measurer::measure(const mesh::Scene& scene, const analysis::Parameters& parameters,
                        analysis::MetricSet metrics, const Progress& progress,
-                       analysis::AssetAnalysis& analysis, const HistogramSink& histograms) {
+                       analysis::AssetAnalysis& analysis, const HistogramSink& histograms,
+                       const SignalSink&) {
   GeometryTable table = make_geometry_table(scene);
   analysis.geometries = std::move(table.geometries);
   analysis.instances = std::move(table.instances);

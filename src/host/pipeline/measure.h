@@ -40,10 +40,10 @@ class Measurer {
   // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit.
   // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes
   // per triangle (about 250 where all edges have more than two triangles). Histograms are computed only for a
-  // sink.
+  // sink, signals handed over only to one.
   void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
                const Progress& progress, analysis::AssetAnalysis& analysis,
-               const HistogramSink& histograms = {});
+               const HistogramSink& histograms = {}, const SignalSink& signals = {});
 
   struct Stages;  // kernels of every stage
 
