@@ -75,7 +75,7 @@ TEST(SignalSvg, GivesTheGapAndWorldUnits) {
   Sample half_proven = sample(40);
   half_proven.geometry.signal->gap = 0.0131;
   const std::string svg = half_proven.svg(4);
-  EXPECT_THAT(svg, AllOf(HasSubstr("R_ft = ~0.0917"), HasSubstr("gap 1.4 %"), Not(HasSubstr("proven"))));
+  EXPECT_THAT(svg, AllOf(HasSubstr("R_ft = ~0.0917"), HasSubstr("Gap 1.4 %"), Not(HasSubstr("proven"))));
   EXPECT_THAT(svg, AllOf(HasSubstr("0.6825 units"), HasSubstr("|X_0| = 40,")));
 }
 
@@ -107,10 +107,10 @@ TEST(SignalSvg, NoiseDoesNotFillTheDiagram) {
   Sample equal = sample(8);
   equal.areas.assign(8, 0.25);
   equal.magnitudes = {2, 3e-17, 1e-17, 2e-17, 0};
-  // The path of the magnitudes never leaves the bottom by more than rounding: 400 + 196.
+  // The path of the magnitudes never leaves the bottom by more than rounding: 420 + 196.
   const std::string svg = equal.svg();
   const std::string spectrum = svg.substr(svg.find("fill=\"#a8401f\""));
-  EXPECT_THAT(spectrum, HasSubstr("V596.0H276.0V596.0H456.0V596.0"));
+  EXPECT_THAT(spectrum, HasSubstr("V616.0H276.0V616.0H456.0V616.0"));
 }
 
 TEST(Envelope, KeepsEveryExtremeOnce) {

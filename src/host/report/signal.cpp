@@ -13,8 +13,8 @@
 namespace scene_analyzer::report {
 namespace {
 
-constexpr std::uint32_t kLeft = 96, kWidth = kLeft + kPlotWidth + 28, kHeight = 660;
-constexpr double kSignalTop = 112, kSpectrumTop = 400, kPlotHeight = 196;
+constexpr std::uint32_t kLeft = 96, kWidth = kLeft + kPlotWidth + 36, kHeight = 680;
+constexpr double kSignalTop = 132, kSpectrumTop = 420, kPlotHeight = 196;
 constexpr double kCaption = 12;  // above a diagram
 // Rounding leaves magnitudes of this share where all areas are equal; they are to look like nothing.
 constexpr double kNoise = 1e-9;
@@ -34,13 +34,15 @@ std::string rating_line(const analysis::GeometryAnalysis& geometry, std::size_t 
   return line;
 }
 
-std::string start_line(const analysis::SignalSummary& signal, double area_scale) {
-  const std::string gap =
-      signal.gap > 0
-          ? fmt::format("gap {}: another triangle may lie that much farther out", gap_percent(signal.gap))
-          : "gap 0: proven the farthest";
-  return fmt::format("Start triangle {}, mean distance to the others {:.4g} units, {}", signal.start_triangle,
-                     signal.mean_distance * std::sqrt(area_scale), gap);
+void append_start(std::string& out, const analysis::SignalSummary& signal, double area_scale) {
+  append_text(out, kLeft, 64, "start",
+              fmt::format("Start triangle {}, mean distance to the others {:.4g} units",
+                          signal.start_triangle, signal.mean_distance * std::sqrt(area_scale)));
+  append_text(out, kLeft, 84, "start",
+              signal.gap > 0
+                  ? fmt::format("Gap {}: another triangle may lie that much farther from the others",
+                                gap_percent(signal.gap))
+                  : "Gap 0: proven to be the triangle farthest from the others");
 }
 
 std::string signal_caption(std::size_t length) {
@@ -72,7 +74,7 @@ std::string signal_svg(const analysis::SignalSpectrum& signal, const analysis::G
   std::string out = svg_head(kWidth, kHeight, kLeft, title);
   append_text(out, kLeft, 44, "start", rating_line(geometry, signal.areas.size()));
   if (signal.areas.empty()) return out + "</svg>\n";  // no triangle has a neighbour: nothing to draw
-  if (geometry.signal) append_text(out, kLeft, 64, "start", start_line(*geometry.signal, area_scale));
+  if (geometry.signal) append_start(out, *geometry.signal, area_scale);
   append_text(out, kLeft, kSignalTop - kCaption, "start", signal_caption(signal.areas.size()));
   append_plot(out,
               {.left = kLeft,
