@@ -46,11 +46,11 @@ std::string svg_head(std::uint32_t width, std::uint32_t height, std::uint32_t le
 
 void append_text(std::string& out, double x, double y, const char* anchor, const std::string& text,
                  const char* more) {
-  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, text);
+  out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, text);
 }
 
 void append_upright(std::string& out, double x, double y, const char* anchor, const std::string& text) {
-  append_text(out, x, y, anchor, text, fmt::format(" transform=\"rotate(-90 {} {})\"", x, y).c_str());
+  append_text(out, x, y, anchor, text, fmt::format(" transform=\"rotate(-90 {:.6g} {:.6g})\"", x, y).c_str());
 }
 
 }  // namespace scene_analyzer::report

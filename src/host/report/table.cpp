@@ -147,8 +147,8 @@ std::string gap_note(const SceneReport& report) {
   }
   if (meshes == 0) return "";
   return fmt::format(
-      "{0} R_ft is not final for {1}: it depends on the triangle that lies farthest from all others.\n"
-      "  The search for it ended early; another one may lie up to {2} farther out (worst mesh).\n"
+      "{0} R_ft is not final for {1}: it depends on which triangle lies farthest from the others.\n"
+      "  The search for it ended early: another one may lie up to {2} farther out (worst mesh).\n"
       "  A larger --start-searches looks longer.\n",
       kOpenMark, plural(meshes, "mesh", "meshes"), gap_percent(widest));
 }
