@@ -119,6 +119,7 @@ TEST_F(Damaged, GarbageUnderARightChecksumIsRefused) {
 
 TEST_F(Damaged, ContradictionsUnderARightChecksumAreNamed) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(reason_after([](v1::Analysis&) {}), "");
   const std::vector<std::pair<std::function<void(v1::Analysis&)>, std::string>> cases = {
       {[](auto& m) { m.mutable_instances(1)->set_geometry(3); }, "instance 1: geometry 3 of 3"},
@@ -142,6 +143,27 @@ TEST_F(Damaged, ContradictionsUnderARightChecksumAreNamed) {
       {[](auto& m) { m.mutable_geometries(0)->set_planar_group_variation(1.5); }, "rating"},
       {[](auto& m) { m.mutable_geometries(0)->set_cooccurrence_contrast(-1); }, "rating"},
       {[](auto& m) { m.mutable_geometries(0)->set_fourier_transform(2); }, "rating"},
+      {[](auto& m) { m.mutable_geometries(0)->set_fourier_transform(kNan); }, "rating"},
+      {[](auto& m) { m.mutable_geometries(0)->clear_fourier_transform(); }, "only one"},
+      {[](auto& m) { m.mutable_geometries(0)->clear_signal(); }, "only one"},
+      {[](auto& m) { m.mutable_geometries(1)->mutable_signal()->set_length(1); }, "a signal of more"},
+      {[](auto& m) { m.mutable_geometries(0)->mutable_signal()->set_mean_distance(kNan); }, "mean distance"},
+      {[](auto& m) { m.mutable_geometries(0)->mutable_signal()->set_mean_distance(-1); }, "mean distance"},
+      {[](auto& m) { m.mutable_geometries(0)->mutable_signal()->set_gap(-1e-9); }, "gap negative"},
+      {[](auto& m) { m.mutable_geometries(0)->mutable_signal()->set_gap(kInfinity); }, "gap negative"},
+      {[](auto& m) {
+         m.mutable_geometries(1)->set_source_triangles(7);
+         m.mutable_geometries(1)->set_triangles(7);
+         m.mutable_geometries(1)->mutable_signal()->set_length(6);
+         m.mutable_geometries(1)->mutable_signal()->set_start_triangle(7);
+       },
+       "start triangle"},
+      {[](auto& m) {
+         m.add_metrics("fourier_transform");
+         m.mutable_parameters()->clear_start_searches();
+       },
+       "start searches"},
+      {[](auto& m) { m.add_metrics("fourier_transform"); }, "content key"},
       {[](auto& m) { m.mutable_parameters()->set_alpha_degrees(181); }, "alpha"},
       {[](auto& m) { m.mutable_parameters()->set_dim(1); }, "dim"},
       {[](auto& m) { m.mutable_parameters()->set_weld_tolerance(-1); }, "weld tolerance"},

@@ -66,6 +66,7 @@ inline analysis::GeometryAnalysis full_geometry() {
   g.planar_group_variation = 5e-324;
   g.cooccurrence_contrast = std::nextafter(1.0, 0.0);
   g.fourier_transform = 0.519230769;
+  g.signal = {4'999'999'988, 4'294'967'295, 0.1 + 0.7, 5e-324, 5'000'000'001};
   return g;
 }
 
@@ -75,7 +76,7 @@ inline analysis::AssetAnalysis full_analysis() {
   a.format = "Wavefront \xe9";
   a.unit_scale = 0.01;
   a.up_axis = "-Z";
-  a.parameters = {12.5, 300, 1e-7, 4};
+  a.parameters = {12.5, 300, 1e-7, 4, 5'000'000'002};
   a.computed.set(0).set(3).set(4);
   a.device = {"llvmpipe \xe9", "Mesa 22.3.6", "cpu"};
   analysis::GeometryAnalysis zeros;  // every optional present and zero, which is not absent
@@ -83,6 +84,7 @@ inline analysis::AssetAnalysis full_analysis() {
   zeros.non_manifold_edges = zeros.boundary_edges = zeros.area_classes = 0;
   zeros.polygons_per_planar_group = zeros.planar_group_variation = 0.0;
   zeros.cooccurrence_contrast = zeros.fourier_transform = -0.0;
+  zeros.signal.emplace();
   analysis::GeometryAnalysis refused;
   refused.source_triangles = 9;
   refused.not_analysed = "needs 3 GiB, the device has 2 GiB";
@@ -129,6 +131,7 @@ inline void expect_same(const analysis::GeometryAnalysis& a, const analysis::Geo
   EXPECT_EQ(a.planar_group_variation, b.planar_group_variation);
   EXPECT_EQ(a.cooccurrence_contrast, b.cooccurrence_contrast);
   EXPECT_EQ(a.fourier_transform, b.fourier_transform);
+  EXPECT_EQ(a.signal, b.signal);
   EXPECT_EQ(a.not_analysed, b.not_analysed);
 }
 

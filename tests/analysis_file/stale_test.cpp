@@ -86,6 +86,28 @@ TEST_F(Stale, RotationsCountOnceSomethingWasTimed) {
   EXPECT_THAT(reason(other), HasSubstr("steps 4 instead of 9"));
 }
 
+TEST_F(Stale, StartSearchesCountOnceTheFourierRatingWasComputed) {
+  auto other = analysis.parameters;
+  other.start_searches = 7;
+  EXPECT_EQ(reason(other), "");
+  EXPECT_EQ(std::get<analysis::AssetAnalysis>(load_valid(file, asset, other)).parameters, other);
+  analysis.computed.set(analysis::index_of(analysis::Metric::kFourierTransform));
+  store(file, analysis);
+  EXPECT_EQ(reason(), "");
+  EXPECT_THAT(reason(other), HasSubstr("start searches 5000000002 instead of 7"));
+}
+
+TEST_F(Stale, AFileFromBeforeStartSearchesIsStillGood) {
+  analysis.parameters.start_searches = 0;  // what an absent field is read as
+  store(file, analysis);
+  EXPECT_EQ(reason(), "");
+  EXPECT_EQ(content_key(analysis), [&] {
+    auto now = analysis;
+    now.parameters.start_searches = 20000;
+    return content_key(now);
+  }());
+}
+
 TEST_F(Stale, OtherProgramVersionIsNoticed) {
   write_text(file, seal(encode(analysis, "0.0.1-other")));
   EXPECT_TRUE(std::holds_alternative<analysis::AssetAnalysis>(load(file))) << "readable, only not current";
@@ -128,6 +150,12 @@ TEST_F(Stale, KeyDependsOnFilesParametersAndNothingElse) {
   other.parameters.alpha_degrees += 1e-12;
   EXPECT_NE(content_key(other), key);
   EXPECT_NE(content_key_of(analysis, "other"), key);
+  other = analysis;
+  other.computed.set(analysis::index_of(analysis::Metric::kFourierTransform));
+  const std::string with_signal = content_key(other);
+  EXPECT_NE(with_signal, key);
+  ++other.parameters.start_searches;
+  EXPECT_NE(content_key(other), with_signal);
 }
 
 TEST_F(Stale, FingerprintsAreXxh3AndListEachFileOnce) {

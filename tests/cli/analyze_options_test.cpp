@@ -36,6 +36,8 @@ TEST(AnalyzeOptions, DefaultsAreThoseOfTheFaces) {
   EXPECT_FALSE(request.ratings.eye);
   EXPECT_FALSE(request.json);
   EXPECT_FALSE(request.csv);
+  EXPECT_FALSE(request.histograms);
+  EXPECT_FALSE(request.signals);
   EXPECT_TRUE(request.table());
   EXPECT_EQ(request.device, "");
   EXPECT_EQ(request.log, LogLevel::kNormal);
@@ -49,6 +51,10 @@ TEST(AnalyzeOptions, EveryOptionArrives) {
                                                          "--dim=100",
                                                          "--steps",
                                                          "16",
+                                                         "--start-searches",
+                                                         "7",
+                                                         "--signals",
+                                                         (folder.path() / "new").string(),
                                                          "--weld-tolerance",
                                                          "1e-4",
                                                          "--metrics",
@@ -70,7 +76,8 @@ TEST(AnalyzeOptions, EveryOptionArrives) {
                                                          "b.obj"});
   EXPECT_THAT(request.assets, ElementsAre("a.obj", "b.obj"));
   EXPECT_EQ(request.pipeline.parameters,
-            (analysis::Parameters{.alpha_degrees = 2.5, .dim = 100, .weld_tolerance = 1e-4, .steps = 16}));
+            (analysis::Parameters{
+                .alpha_degrees = 2.5, .dim = 100, .weld_tolerance = 1e-4, .steps = 16, .start_searches = 7}));
   EXPECT_EQ(request.pipeline.metrics.count(), 2U);
   EXPECT_EQ(request.ratings.metrics, request.pipeline.metrics);
   EXPECT_EQ(request.ratings.eye, (mesh::Vector3{-1, 2, 3}));
@@ -79,6 +86,7 @@ TEST(AnalyzeOptions, EveryOptionArrives) {
   EXPECT_TRUE(request.ratings.relative);
   EXPECT_EQ(request.json, "-");
   EXPECT_FALSE(request.table());
+  EXPECT_EQ(request.signals, folder.path() / "new");
   EXPECT_EQ(request.device, "llvm");
   EXPECT_EQ(request.pipeline.cache_folder, folder.path());
   EXPECT_EQ(request.log, LogLevel::kVerbose);
@@ -105,6 +113,11 @@ TEST(AnalyzeOptions, ValuesOutOfRange) {
   EXPECT_THAT(with("--dim", "-5"), HasSubstr("[2, 4294967295]"));
   EXPECT_THAT(with("--steps", "0"), HasSubstr("[1, 256]"));
   EXPECT_THAT(with("--steps", "257"), HasSubstr("[1, 256]"));
+  EXPECT_THAT(with("--start-searches", "0"),
+              AllOf(HasSubstr("--start-searches"), HasSubstr("[1, 4294967295]")));
+  EXPECT_THAT(with("--start-searches", "1.5"), HasSubstr("[1, 4294967295]"));
+  EXPECT_THAT(with("--signals", ""), HasSubstr("--signals needs a folder"));
+  EXPECT_THAT(with("--histograms", ""), HasSubstr("--histograms needs a folder"));
   EXPECT_THAT(with("--weld-tolerance", "-1e-9"), HasSubstr(">= 0"));
   EXPECT_THAT(with("--metrics", "beauty"), HasSubstr("known are"));
   EXPECT_THAT(with("--eye", "1,2"), HasSubstr("X,Y,Z"));
@@ -147,6 +160,7 @@ TEST(AnalyzeOptions, OutputsAreCheckedBeforeAnyWork) {
   const std::string asset = folder.write("a.obj", "v 0 0 0\n").string();
   EXPECT_THAT(refusal({asset, "--csv", asset}), HasSubstr("overwritten"));
   EXPECT_THAT(refusal({asset, "--cache-dir", asset}), HasSubstr("is a file"));
+  EXPECT_THAT(refusal({asset, "--signals", asset}), AllOf(HasSubstr("--signals"), HasSubstr("is a file")));
 }
 
 TEST(AnalyzeOptions, HelpNamesEveryOptionMetricAndExitCode) {
@@ -154,10 +168,12 @@ TEST(AnalyzeOptions, HelpNamesEveryOptionMetricAndExitCode) {
   EXPECT_TRUE(parse_analyze(Arguments{"-h"}).help);
   const std::string help = analyze_help();
   for (const char* option :
-       {"--alpha DEG", "--dim N", "--steps N", "--metrics KEY", "--eye X,Y,Z", "--weights KEY=W",
-        "--relative", "--weld-tolerance L", "--json FILE|-", "--csv FILE|-", "--device D", "--cache-dir DIR",
-        "--no-cache", "--quiet", "--verbose", "Examples:", "Exit codes:"})
+       {"--alpha DEG",     "--dim N",       "--steps N",          "--metrics KEY",      "--eye X,Y,Z",
+        "--weights KEY=W", "--relative",    "--weld-tolerance L", "--start-searches N", "--histograms DIR",
+        "--signals DIR",   "--json FILE|-", "--csv FILE|-",       "--device D",         "--cache-dir DIR",
+        "--no-cache",      "--quiet",       "--verbose",          "Examples:",          "Exit codes:"})
     EXPECT_THAT(help, HasSubstr(option));
+  EXPECT_THAT(help, AllOf(HasSubstr("default 20000"), HasSubstr("gap"))) << "what a mark in the table means";
   for (const auto key : analysis::kMetricKeys) EXPECT_THAT(help, HasSubstr(std::string(key)));
 }
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "cli/assets.h"
-#include "cli/histogram_files.h"
+#include "cli/mesh_files.h"
 #include "cli/run_program.h"
 #include "support/temporary_folder.h"
 
@@ -111,17 +111,17 @@ TEST_F(HistogramsTest, FoldersThatCannotBeAreExitCode2) {
   }
 }
 
-TEST(HistogramStem, IsAFileNameWhateverTheMeshIsCalled) {
-  EXPECT_EQ(cli::histogram_stem(7, "leg"), "7-leg");
-  EXPECT_EQ(cli::histogram_stem(0, "../a b\n/\xc3\xa4.x"), "0-.._a_b____.x");
-  EXPECT_EQ(cli::histogram_stem(12, std::string(500, 'y')), "12-" + std::string(60, 'y'));
-  EXPECT_EQ(cli::histogram_stem(3, ""), "3-");
+TEST(MeshStem, IsAFileNameWhateverTheMeshIsCalled) {
+  EXPECT_EQ(cli::mesh_stem(7, "leg"), "7-leg");
+  EXPECT_EQ(cli::mesh_stem(0, "../a b\n/\xc3\xa4.x"), "0-.._a_b____.x");
+  EXPECT_EQ(cli::mesh_stem(12, std::string(500, 'y')), "12-" + std::string(60, 'y'));
+  EXPECT_EQ(cli::mesh_stem(3, ""), "3-");
 }
 
-TEST(HistogramFiles, ARefusedTableIsAWarningAndTheOldOneGoes) {
+TEST(MeshFiles, ARefusedTableIsAWarningAndTheOldOneGoes) {
   const TemporaryFolder folder;
   folder.write("4-leg.csv", "of an earlier run");
-  cli::HistogramFiles files(folder.path());
+  cli::MeshFiles files(folder.path(), "histograms");
   analysis::AssetAnalysis analysis;
   analysis.asset = "room.glb";
   analysis.geometries.resize(1);
@@ -132,7 +132,7 @@ TEST(HistogramFiles, ARefusedTableIsAWarningAndTheOldOneGoes) {
   histogram.bins.assign(std::size_t{analysis::kHistogramBins} * analysis::kHistogramBins, 1);
   histogram.refused = "too many";
   files.start_asset(4);
-  files.write(analysis, 0, histogram);
+  cli::write_histogram(files, analysis, 0, histogram);
   EXPECT_THAT(files.take_warnings(),
               ElementsAre(AllOf(HasSubstr("room.glb"), HasSubstr("row 4"), HasSubstr("too many"))));
   EXPECT_TRUE(fs::exists(folder.path() / "4-leg.svg"));

@@ -15,8 +15,10 @@ namespace scene_analyzer::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using analysis::AssetAnalysis;
 using analysis::Metric;
 using analysis::MetricSet;
+using analysis::SignalSpectrum;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -144,9 +146,35 @@ TEST_F(PipelineTest, MetricsThatWereNotAskedForAreAddedLaterWithoutLosingOthers)
 TEST_F(PipelineTest, MetricsThatNeedNoStageOrDoNotExistYetAreAlwaysCovered) {
   options_.metrics = only(Metric::kDistance);
   ASSERT_TRUE(analyze(strip()).analysis);
-  options_.metrics =
-      only(Metric::kRelativeDensity) | only(Metric::kFourierTransform) | only(Metric::kRenderingTime);
+  options_.metrics = only(Metric::kRelativeDensity) | only(Metric::kRenderingTime);
   EXPECT_TRUE(analyze_from_file(strip()).from_file);
+}
+
+TEST_F(PipelineTest, TheFourierRatingIsStoredUnderItsParameter) {
+  options_.metrics = only(Metric::kDistance);
+  ASSERT_TRUE(analyze(strip()).analysis);
+  options_.metrics = only(Metric::kFourierTransform);
+  EXPECT_FALSE(analyze_from_file(strip()).analysis) << "the file lacks it";
+  ASSERT_TRUE(analyze(strip()).analysis);
+  EXPECT_TRUE(analyze_from_file(strip()).from_file);
+  options_.parameters.start_searches = 3;
+  const Outcome other = analyze(strip());
+  EXPECT_THAT(other.messages, ElementsAre(AllOf(HasSubstr("start searches"), HasSubstr("computed again"))));
+}
+
+TEST_F(PipelineTest, SignalsAreAlwaysMeasuredAndBringTheirRating) {
+  ASSERT_TRUE(analyze(strip()).analysis);
+  options_.metrics = only(Metric::kDistance);
+  options_.signals = [](const AssetAnalysis& analysis, std::uint32_t geometry, const SignalSpectrum& signal) {
+    const auto& summary = analysis.geometries.at(geometry).signal;
+    ASSERT_TRUE(summary);
+    EXPECT_EQ(signal.areas.size(), summary->length);
+    EXPECT_EQ(signal.magnitudes.size(), summary->length / 2 + 1);
+  };
+  const Outcome outcome = analyze(strip());
+  ASSERT_TRUE(outcome.analysis) << outcome.error;
+  EXPECT_FALSE(outcome.from_file);
+  EXPECT_TRUE(outcome.analysis->computed[index_of(Metric::kFourierTransform)]);
 }
 
 TEST_F(PipelineTest, AChangedAssetOrParameterIsComputedAgainWithAMessage) {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -40,6 +42,62 @@ TEST(PlanarGroupVariation, OfThePrintedMeshes) {
   // Furniture leg: two caps of 10, ten sides of 2.
   EXPECT_NEAR(planar_group_variation(40, 2 * 100 + 10 * 4), 0.387298, 5e-7);
   EXPECT_EQ(planar_group_variation(32, 32 * 32), 1);
+}
+
+// The rating of a signal, by the sum that defines the transform.
+double rating_of(const std::vector<double>& signal) {
+  double zero = 0, largest = 0, sum = 0, weighted_sum = 0;
+  for (std::size_t k = 0; k <= signal.size() / 2; ++k) {
+    std::complex<double> value = 0;
+    for (std::size_t i = 0; i < signal.size(); ++i)
+      value += std::polar(signal[i], -2 * std::numbers::pi * static_cast<double>(k * i % signal.size()) /
+                                         static_cast<double>(signal.size()));
+    const double magnitude = std::abs(value);
+    if (k == 0) {
+      zero = magnitude;
+      continue;
+    }
+    largest = std::max(largest, magnitude);
+    sum += magnitude;
+    weighted_sum += static_cast<double>(k) * magnitude;
+  }
+  return fourier_transform(zero, largest, sum, weighted_sum, signal.size());
+}
+
+TEST(FourierTransform, OfThePrintedSignals) {
+  EXPECT_EQ(rating_of({100, 100, 100, 100, 100, 100}), 0);
+  EXPECT_NEAR(rating_of({200, 100, 100, 100, 100, 100}), 0.095238095, 5e-10);
+  EXPECT_NEAR(rating_of({100, 1}), 0.98019802, 5e-9);
+  EXPECT_NEAR(rating_of({1000, 100, 100, 100}), 0.519230769, 5e-10);  // the thesis: 0.5625, see metrics.md
+}
+
+TEST(FourierTransform, FromMagnitudes) {
+  EXPECT_DOUBLE_EQ(fourier_transform(10, 5, 8, 12, 4), 5.0 / 10 * 12 / (2 * 8));
+  EXPECT_DOUBLE_EQ(fourier_transform(10, 5, 8, 12, 5), 5.0 / 10 * 12 / (2 * 8)) << "c is rounded down";
+}
+
+TEST(FourierTransform, IsZeroWhereNothingAlternates) {
+  EXPECT_EQ(fourier_transform(0, 0, 0, 0, 0), 0);
+  EXPECT_EQ(fourier_transform(7, 0, 0, 0, 1), 0);
+  EXPECT_EQ(fourier_transform(0, 0, 0, 0, 8), 0) << "0/0";
+  EXPECT_EQ(fourier_transform(1, 1e-12, 1e-12, 1e-12, 2), 0);
+  EXPECT_NEAR(fourier_transform(1, 1.1e-12, 1.1e-12, 1.1e-12, 2), 1.1e-12, 1e-24);
+}
+
+TEST(FourierTransform, StaysWithinItsRangeAndIgnoresTheUnit) {
+  EXPECT_EQ(fourier_transform(1, 1 + 1e-15, 1, 1 + 1e-15, 2), 1);
+  EXPECT_EQ(rating_of({1, 0}), 1) << "the strongest and quickest change there is";
+  std::mt19937_64 random(5);
+  std::lognormal_distribution<double> distribution(0, 3);
+  for (std::size_t length = 2; length < 60; ++length) {
+    std::vector<double> signal(length);
+    for (double& area : signal) area = distribution(random);
+    const double rated = rating_of(signal);
+    EXPECT_GE(rated, 0);
+    EXPECT_LE(rated, 1);
+    for (double& area : signal) area *= 1e-40;
+    EXPECT_NEAR(rating_of(signal), rated, 1e-12);
+  }
 }
 
 const std::vector<double> kDensities = {0.0369505, 0.0558266, 0.179589, 0.40802, 0.535204, 0.56065};

@@ -187,6 +187,34 @@ TEST(Rate, PassesAFourierRatingOn) {
   EXPECT_FALSE(scene.signed_aggregate);
 }
 
+TEST(Rate, AFourierRatingIsWeighedLikeTheOthers) {
+  AssetAnalysis room = asset({geometry(0, 10, 5), geometry(1, 10, 5)}, {instance(0, 0), instance(1, 0)});
+  room.geometries[0].fourier_transform = 0.25;  // of the second mesh it was not computed
+  Options options;
+  options.weights = {1, 0, 0, 0, 0, 3, 0};
+  const SceneRating scene = rate(std::span(&room, 1), options);
+  EXPECT_EQ(scene.meshes[0].aggregate, 0.25);
+  EXPECT_EQ(scene.meshes[1].aggregate, 0.25) << "a null rating leaves both sums";
+  room.geometries[0].fourier_transform = 0.65;
+  EXPECT_DOUBLE_EQ(*rate(std::span(&room, 1), options).meshes[0].aggregate, (0.25 + 3 * 0.65) / 4);
+  options.weights = {0, 0, 1, 0, 0, 1, 0};
+  const SceneRating with_density = rate(std::span(&room, 1), options);
+  EXPECT_FALSE(with_density.signed_aggregate) << "density does not stand alone beside it";
+}
+
+TEST(Rate, AFourierRatingThatIsNotAskedForOrNoNumberIsNull) {
+  AssetAnalysis room = asset({geometry(0, 10, 5), geometry(1, 0, 0)}, {instance(0, 0), instance(1, 0)});
+  room.geometries[0].fourier_transform = 0.5;
+  room.geometries[1].fourier_transform = 0.5;  // a mesh without triangles has no rating
+  Options options;
+  EXPECT_EQ(rating(rate(std::span(&room, 1), options).meshes[0], Metric::kFourierTransform), 0.5);
+  EXPECT_EQ(rating(rate(std::span(&room, 1), options).meshes[1], Metric::kFourierTransform), std::nullopt);
+  options.metrics.reset(index_of(Metric::kFourierTransform));
+  EXPECT_EQ(rating(rate(std::span(&room, 1), options).meshes[0], Metric::kFourierTransform), std::nullopt);
+  room.geometries[0].fourier_transform = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(rating(rate(std::span(&room, 1), {}).meshes[0], Metric::kFourierTransform), std::nullopt);
+}
+
 TEST(Rate, NumbersThatOverflowBecomeNullAndDisturbNobody) {
   AssetAnalysis room = asset({geometry(0, 10, 5), geometry(1, 20, 5)},
                              {instance(0, 0), instance(1, 2), instance(0, 4, 0), instance(0, 5, kInfinity),

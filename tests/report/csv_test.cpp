@@ -71,9 +71,13 @@ TEST(Csv, HasAColumnForEveryField) {
   const Table rows = read_csv(text);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].size(),
-            18 + 5 + 2 * 7 + 3u);  // 18 plain with bounds as one, 5 more for bounds, 2 x 7 ratings, 3
+            19 + 4 + 5 + 2 * 7 + 3u);  // 19 plain with signal and bounds as one each, 4 and 5 more for
+                                       // them, 2 x 7 ratings, 3
   EXPECT_THAT(
       text, ::testing::StartsWith("index,asset,node,mesh,source_triangles,degenerate_triangles,triangles,"));
+  EXPECT_THAT(text, ::testing::HasSubstr(
+                        ",area_classes,signal.length,signal.start_triangle,signal.mean_distance,signal.gap,"
+                        "signal.searches,surface_area,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.min.x,bounds.min.y,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.max.z,distance,ratings.polygons_per_planar_group,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",relative_ratings.rendering_time,aggregate,color,not_analysed\n"));

@@ -25,6 +25,8 @@ analysis::GeometryAnalysis leg() {
   geometry.polygons_per_planar_group = ratings::polygons_per_planar_group(40, 12);
   geometry.planar_group_variation = ratings::planar_group_variation(40, 240);
   geometry.cooccurrence_contrast = 1.0 / 3;
+  geometry.fourier_transform = 0.09168;
+  geometry.signal = {.length = 40, .start_triangle = 17, .mean_distance = 0.35, .gap = 0, .searches = 23};
   return geometry;
 }
 

@@ -74,11 +74,49 @@ TEST(Json, PrintsAMeshWithNumbersAsNumbers) {
   EXPECT_EQ(mesh["density"], 40.0);
   EXPECT_EQ(mesh["bounds"]["min"], ordered_json::parse("[3.0, 0.0, 0.0]"));
   EXPECT_EQ(mesh["ratings"]["cooccurrence_contrast"].get<double>(), 1.0 / 3);  // every digit
-  EXPECT_TRUE(mesh["ratings"]["fourier_transform"].is_null());
+  EXPECT_EQ(mesh["ratings"]["fourier_transform"], 0.09168);
   EXPECT_TRUE(mesh["relative_ratings"]["rendering_time"].is_null());
   EXPECT_EQ(mesh["aggregate"].get<double>(), *report.rating.meshes[1].aggregate);
   EXPECT_EQ(mesh["color"], ratings::to_hex(ratings::color(*report.rating.meshes[1].aggregate)));
   EXPECT_TRUE(mesh["not_analysed"].is_null());
+}
+
+TEST(Json, PrintsTheSignalInWorldUnits) {
+  Fixture fixture = two_assets();
+  fixture.assets[0].geometries[0].signal->gap = 0.0125;
+  const ordered_json document = parsed(fixture.report());
+  EXPECT_EQ(document["parameters"]["start_searches"], 20000);
+  const ordered_json& meshes = document["meshes"];
+  EXPECT_EQ(keys_of(meshes[0]["signal"]),
+            (std::vector<std::string>{"length", "start_triangle", "mean_distance", "gap", "searches"}));
+  const ordered_json scaled = {
+      {"length", 40}, {"start_triangle", 17}, {"mean_distance", 0.7}, {"gap", 0.0125}, {"searches", 23}};
+  EXPECT_EQ(meshes[1]["signal"], scaled) << "an instance twice as large";
+  EXPECT_EQ(meshes[0]["signal"]["mean_distance"], 0.35);
+  EXPECT_TRUE(meshes[2]["signal"].is_null());
+  EXPECT_TRUE(meshes[3]["signal"].is_null());
+}
+
+TEST(Json, ASignalOfNothingHasNoStart) {
+  Fixture fixture = two_assets();
+  fixture.assets[0].geometries[0].signal = analysis::SignalSummary();
+  const std::string text = json(fixture.report());
+  const ordered_json signal = ordered_json::parse(text)["meshes"][0]["signal"];
+  EXPECT_EQ(signal["length"], 0);
+  EXPECT_TRUE(signal["start_triangle"].is_null());
+  EXPECT_TRUE(signal["mean_distance"].is_null());
+  EXPECT_EQ(validate(text), 0);
+}
+
+TEST(Json, TheFourierRatingHasItsColor) {
+  Fixture fixture = two_assets();
+  fixture.options.weights = {0, 0, 0, 0, 0, 1, 0};
+  fixture.assets[0].geometries[0].fourier_transform = 1;
+  fixture.assets[1].geometries[1].fourier_transform = 0.5;
+  const ordered_json meshes = parsed(fixture.report())["meshes"];
+  EXPECT_EQ(meshes[0]["color"], "#ff0000");
+  EXPECT_EQ(meshes[4]["color"], "#ffff00");
+  EXPECT_EQ(meshes[4]["relative_ratings"]["fourier_transform"], 0);
 }
 
 TEST(Json, PrintsAbsentFiguresAsNull) {
@@ -172,6 +210,10 @@ TEST(Schema, RefusesWhatIsNotTheReport) {
   EXPECT_EQ(faulty("/meshes/0/ratings/distance", 1.5), 1);
   EXPECT_EQ(faulty("/meshes/0/ratings/new_metric", 0.5), 1);
   EXPECT_EQ(faulty("/meshes/0/surprise", 1), 1);
+  EXPECT_EQ(faulty("/meshes/0/signal/surprise", 1), 1);
+  EXPECT_EQ(faulty("/meshes/0/signal/gap", -0.1), 1);
+  EXPECT_EQ(faulty("/meshes/0/signal/length", 1.5), 1);
+  EXPECT_EQ(faulty("/parameters/start_searches", 0), 1);
   EXPECT_EQ(faulty("/scene/surprise", 1), 1);
   EXPECT_EQ(faulty("/meshes/0/color", "red"), 1);
   EXPECT_EQ(faulty("/schema_version", 2), 1);

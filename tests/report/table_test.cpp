@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "report/fixture.h"
+#include "report/gap_text.h"
 #include "report/terminal_text.h"
 
 namespace scene_analyzer::report {
@@ -33,7 +34,7 @@ TEST(Table, ShowsFourDecimalsAndDashes) {
                                                          "R_rd", "R_d", "R_ccm", "R_ft", "R_rt", "R"));
   EXPECT_THAT(words_of(lines[1]),
               ::testing::ElementsAre("leg", "left", "40", "12", "0.7179", "0.3873", "0.5000", ::testing::_,
-                                     "0.3333", "-", "-", ::testing::_));
+                                     "0.3333", "0.0917", "-", ::testing::_));
   EXPECT_THAT(words_of(lines[2])[6], "-0.5000");
   EXPECT_THAT(words_of(lines[3]),
               ::testing::ElementsAre("helper", "0", "-", "-", "-", "-", "-", "-", "-", "-", "-"));
@@ -101,6 +102,42 @@ TEST(Table, FitsTheTerminal) {
       EXPECT_LE(columns(printable(line)), width) << line;
   EXPECT_THAT(table(fixture.report(), {.width = 120}), HasSubstr("xend "));
   EXPECT_LT(lines_of(table(fixture.report(), {}))[0].size(), 200u);  // one name does not widen every row
+}
+
+TEST(Table, MarksFourierRatingsThatAreNotFinal) {
+  Fixture fixture = two_assets();
+  EXPECT_THAT(table(fixture.report(), {}), Not(HasSubstr("~"))) << "a gap of 0 is proven";
+  fixture.assets[0].geometries[0].signal->gap = 0.0131;
+  const auto lines = lines_of(table(fixture.report(), {}));
+  EXPECT_THAT(words_of(lines[1]), ::testing::Contains("~0.0917"));
+  EXPECT_THAT(words_of(lines[5]), ::testing::Contains("0.0917")) << "the other asset's leg is proven";
+  ASSERT_EQ(lines.size(), 11u);
+  EXPECT_THAT(lines[8], ::testing::StartsWith("~ R_ft is not final for 2 meshes"));
+  EXPECT_THAT(lines[9], HasSubstr("up to 1.4 % farther"));
+  EXPECT_THAT(lines[10], HasSubstr("--start-searches"));
+  const UnicodeScope unicode;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(columns(printable(lines[i])), columns(printable(lines[0])));
+  for (const std::string& line : lines_of(table(fixture.report(), {.width = 100})))
+    EXPECT_LE(columns(printable(line)), 100u);
+  EXPECT_THAT(table(fixture.report(), {.color = true}), HasSubstr("m~0.0917\x1b[0m"));
+}
+
+TEST(Table, DoesNotMarkARatingThatIsNotShown) {
+  Fixture fixture = two_assets();
+  fixture.assets[0].geometries[0].signal->gap = 0.5;
+  fixture.options.metrics.reset(index_of(analysis::Metric::kFourierTransform));
+  EXPECT_THAT(table(fixture.report(), {}), Not(HasSubstr("~")));
+}
+
+TEST(GapPercent, IsABoundOfTwoDigits) {
+  EXPECT_EQ(gap_percent(0.0131), "1.4 %");
+  EXPECT_EQ(gap_percent(0.013), "1.3 %");
+  EXPECT_EQ(gap_percent(0.07), "7.0 %");
+  EXPECT_EQ(gap_percent(0.1201), "13 %");
+  EXPECT_EQ(gap_percent(0.00051), "0.051 %");
+  EXPECT_EQ(gap_percent(1e-300), "0.010 %");
+  EXPECT_EQ(gap_percent(0.0999), "10.0 %");
+  EXPECT_EQ(gap_percent(1.234), "130 %");
 }
 
 TEST(Table, TellsHowManyRowsItLeftOut) {

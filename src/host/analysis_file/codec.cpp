@@ -25,6 +25,7 @@ void write_parameters(const analysis::Parameters& from, v1::Parameters& to) {
   to.set_dim(from.dim);
   to.set_weld_tolerance(from.weld_tolerance);
   to.set_steps(from.steps);
+  to.set_start_searches(from.start_searches);
 }
 
 void write_file(const analysis::FileFingerprint& from, v1::File& to) {
@@ -33,6 +34,14 @@ void write_file(const analysis::FileFingerprint& from, v1::File& to) {
   to.set_size(from.size);
   to.set_hash_low(from.hash[0]);
   to.set_hash_high(from.hash[1]);
+}
+
+void write_signal(const analysis::SignalSummary& from, v1::Signal& to) {
+  to.set_length(from.length);
+  to.set_start_triangle(from.start_triangle);
+  to.set_mean_distance(from.mean_distance);
+  to.set_gap(from.gap);
+  to.set_searches(from.searches);
 }
 
 void write_geometry(const analysis::GeometryAnalysis& from, v1::Geometry& to) {
@@ -54,6 +63,7 @@ void write_geometry(const analysis::GeometryAnalysis& from, v1::Geometry& to) {
   if (from.planar_group_variation) to.set_planar_group_variation(*from.planar_group_variation);
   if (from.cooccurrence_contrast) to.set_cooccurrence_contrast(*from.cooccurrence_contrast);
   if (from.fourier_transform) to.set_fourier_transform(*from.fourier_transform);
+  if (from.signal) write_signal(*from.signal, *to.mutable_signal());
   to.set_not_analysed(from.not_analysed);
 }
 

@@ -23,7 +23,7 @@ void read_numbers(const Values& from, std::array<double, kCount>& to, const char
 }
 
 analysis::Parameters read_parameters(const v1::Parameters& from) {
-  return {from.alpha_degrees(), from.dim(), from.weld_tolerance(), from.steps()};
+  return {from.alpha_degrees(), from.dim(), from.weld_tolerance(), from.steps(), from.start_searches()};
 }
 
 analysis::MetricSet read_metrics(const v1::Analysis& from) {
@@ -47,6 +47,10 @@ std::optional<std::uint64_t> count_when(bool present, std::uint64_t value) {
   return when(present, value);
 }
 
+analysis::SignalSummary read_signal(const v1::Signal& from) {
+  return {from.length(), from.start_triangle(), from.mean_distance(), from.gap(), from.searches()};
+}
+
 analysis::GeometryAnalysis read_geometry(const v1::Geometry& from) {
   analysis::GeometryAnalysis to;
   to.mesh = from.mesh();
@@ -66,6 +70,7 @@ analysis::GeometryAnalysis read_geometry(const v1::Geometry& from) {
   to.planar_group_variation = when(from.has_planar_group_variation(), from.planar_group_variation());
   to.cooccurrence_contrast = when(from.has_cooccurrence_contrast(), from.cooccurrence_contrast());
   to.fourier_transform = when(from.has_fourier_transform(), from.fourier_transform());
+  if (from.has_signal()) to.signal = read_signal(from.signal());
   to.not_analysed = from.not_analysed();
   return to;
 }

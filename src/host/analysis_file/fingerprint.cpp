@@ -92,6 +92,9 @@ std::string content_key_of(const analysis::AssetAnalysis& analysis, std::string_
     append(bytes, file.hash[0]);
     append(bytes, file.hash[1]);
   }
+  // Behind everything else, so that files from before this parameter keep their key.
+  if (analysis.computed[analysis::index_of(analysis::Metric::kFourierTransform)])
+    append(bytes, parameters.start_searches);
   return to_hex(hash_of(bytes));
 }
 

@@ -62,7 +62,14 @@ std::optional<std::string> parameter_reason(const analysis::AssetAnalysis& analy
   if (auto reason = differing("alpha", stored.alpha_degrees, wanted.alpha_degrees)) return reason;
   if (auto reason = differing("dim", stored.dim, wanted.dim)) return reason;
   if (auto reason = differing("weld tolerance", stored.weld_tolerance, wanted.weld_tolerance)) return reason;
-  if (!analysis.computed[analysis::index_of(analysis::Metric::kRenderingTime)]) return std::nullopt;
+  // These two change nothing but the values of one metric each.
+  const auto computed = [&](analysis::Metric metric) {
+    return analysis.computed[analysis::index_of(metric)];
+  };
+  if (computed(analysis::Metric::kFourierTransform))
+    if (auto reason = differing("start searches", stored.start_searches, wanted.start_searches))
+      return reason;
+  if (!computed(analysis::Metric::kRenderingTime)) return std::nullopt;
   return differing("steps", stored.steps, wanted.steps);
 }
 

@@ -41,6 +41,19 @@ Reason parameters_reason(const analysis::Parameters& parameters) {
   return std::nullopt;
 }
 
+Reason signal_reason(const analysis::GeometryAnalysis& geometry) {
+  if (geometry.signal.has_value() != geometry.fourier_transform.has_value())
+    return "of signal and Fourier rating only one";
+  if (!geometry.signal) return std::nullopt;
+  const analysis::SignalSummary& signal = *geometry.signal;
+  if (signal.length > geometry.triangles) return "a signal of more triangles than there are";
+  if (signal.length > 0 && signal.start_triangle >= geometry.source_triangles)
+    return "a start triangle that does not exist";
+  if (!is_length(signal.mean_distance)) return "mean distance negative or not finite";
+  if (!is_length(signal.gap)) return "gap negative or not finite";
+  return std::nullopt;
+}
+
 Reason geometry_reason(const analysis::GeometryAnalysis& geometry) {
   const std::uint64_t n = geometry.triangles;
   const bool counted =
@@ -58,7 +71,7 @@ Reason geometry_reason(const analysis::GeometryAnalysis& geometry) {
   if (!is_rating(geometry.polygons_per_planar_group) || !is_rating(geometry.planar_group_variation) ||
       !is_rating(geometry.cooccurrence_contrast) || !is_rating(geometry.fourier_transform))
     return "a rating outside [0, 1]";
-  return std::nullopt;
+  return signal_reason(geometry);
 }
 
 Reason instance_reason(const analysis::InstanceAnalysis& instance, std::size_t geometries) {
@@ -94,6 +107,10 @@ Reason first_reason(const char* what, const Items& items, Judge judge) {
 
 Reason implausible(const analysis::AssetAnalysis& analysis) {
   if (Reason reason = parameters_reason(analysis.parameters)) return reason;
+  // Files without the Fourier rating may be older than the parameter.
+  if (analysis.computed[analysis::index_of(analysis::Metric::kFourierTransform)] &&
+      analysis.parameters.start_searches < 1)
+    return "start searches below 1";
   if (!contains(kDeviceTypes, analysis.device.type))
     return "unknown device type '" + analysis.device.type + "'";
   if (analysis.up_axis && !contains(kAxes, *analysis.up_axis))

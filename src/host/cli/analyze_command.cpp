@@ -15,9 +15,9 @@
 #include "base/version.h"
 #include "cli/analyze_options.h"
 #include "cli/exit_code.h"
-#include "cli/histogram_files.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
+#include "cli/mesh_files.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
 #include "report/report.h"
@@ -46,7 +46,7 @@ bool measuring_is_likely(const AnalyzeRequest& request) {
   return std::ranges::any_of(request.assets, [&](const std::string& asset) {
     std::error_code ignored;
     if (!fs::is_regular_file(asset, ignored)) return false;
-    return !request.pipeline.use_analysis_files || request.histograms ||
+    return !request.pipeline.use_analysis_files || request.histograms || request.signals ||
            !fs::exists(analysis_file::path_for(asset, request.pipeline.cache_folder), ignored);
   });
 }
@@ -77,29 +77,52 @@ pipeline::Outcome analyze_one(pipeline::Pipeline& pipeline, const std::string& a
   return outcome;
 }
 
-// Whether all files could be written.
-bool log_histograms(HistogramFiles& files) {
-  for (const std::string& warning : files.take_warnings()) log_warning(warning);
-  const auto errors = files.take_errors();
-  for (const std::string& error : errors) log_error(error);
-  return errors.empty();
-}
+// What is written per mesh while assets are measured, where it was asked for.
+struct Exports {
+  std::optional<MeshFiles> histograms, signals;
 
-pipeline::Options pipeline_options(const AnalyzeRequest& request, std::optional<HistogramFiles>& files) {
+  explicit Exports(const AnalyzeRequest& request) {
+    if (request.histograms) histograms.emplace(*request.histograms, "histograms");
+    if (request.signals) signals.emplace(*request.signals, "signals");
+  }
+
+  void start_asset(std::size_t rows_before) {
+    for (auto* files : {&histograms, &signals})
+      if (*files) (*files)->start_asset(rows_before);
+  }
+
+  // Whether all files could be written.
+  bool log() {
+    bool good = true;
+    for (auto* files : {&histograms, &signals}) {
+      if (!*files) continue;
+      for (const std::string& warning : (*files)->take_warnings()) log_warning(warning);
+      const auto errors = (*files)->take_errors();
+      for (const std::string& error : errors) log_error(error);
+      good = good && errors.empty();
+    }
+    return good;
+  }
+};
+
+pipeline::Options pipeline_options(const AnalyzeRequest& request, Exports& exports) {
   pipeline::Options options = request.pipeline;
-  if (files)
-    options.histograms = [&files](const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
-                                  const analysis::Histogram& histogram) {
-      files->write(analysis, geometry, histogram);
+  using analysis::AssetAnalysis;
+  if (exports.histograms)
+    options.histograms = [&](const AssetAnalysis& analysis, std::uint32_t geometry, const auto& histogram) {
+      write_histogram(*exports.histograms, analysis, geometry, histogram);
+    };
+  if (exports.signals)
+    options.signals = [&](const AssetAnalysis& analysis, std::uint32_t geometry, const auto& signal) {
+      write_signal(*exports.signals, analysis, geometry, signal);
     };
   return options;
 }
 
 Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
   Analyses result;
-  std::optional<HistogramFiles> histograms;
-  if (request.histograms) histograms.emplace(*request.histograms);
-  pipeline::Pipeline pipeline(pipeline_options(request, histograms),
+  Exports exports(request);
+  pipeline::Pipeline pipeline(pipeline_options(request, exports),
                               [&]() -> gpu::Device& { return device.get(); });
   if (measuring_is_likely(request)) device.start();
   std::size_t rows = 0;
@@ -112,10 +135,9 @@ Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
     progress.start_asset(i, fs::path(asset).filename().string());
     const auto [entry, is_new] = seen.try_emplace(identity(asset), kFailed);
     if (is_new) {
-      if (histograms) histograms->start_asset(rows);
+      exports.start_asset(rows);
       pipeline::Outcome outcome = analyze_one(pipeline, asset, progress);
-      if (histograms)
-        progress.aside([&] { result.all_good = log_histograms(*histograms) && result.all_good; });
+      progress.aside([&] { result.all_good = exports.log() && result.all_good; });
       if (outcome.analysis) {
         entry->second = result.assets.size();
         result.all_good = result.all_good && !beyond_a_limit(*outcome.analysis);
@@ -190,10 +212,10 @@ bool write_outputs(const AnalyzeRequest& request, const report::SceneReport& rep
 }
 
 void note_metrics_without_values(const AnalyzeRequest& request) {
-  for (const auto metric : {analysis::Metric::kFourierTransform, analysis::Metric::kRenderingTime})
-    if (!request.ratings.metrics.all() && request.ratings.metrics[index_of(metric)])
-      log_warning(fmt::format("--metrics: {} is not computed by this version; its values stay empty",
-                              analysis::kMetricKeys[index_of(metric)]));
+  const std::size_t timing = index_of(analysis::Metric::kRenderingTime);
+  if (!request.ratings.metrics.all() && request.ratings.metrics[timing])
+    log_warning(fmt::format("--metrics: {} is not computed by this version; its values stay empty",
+                            analysis::kMetricKeys[timing]));
 }
 
 }  // namespace

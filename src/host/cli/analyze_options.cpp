@@ -30,8 +30,7 @@ constexpr const char* kExamples =
 
 std::string metric_help() {
   return fmt::format(
-      "Metrics (KEY):\n  {}\n  fourier_transform and rendering_time are not computed by this version; "
-      "they stay empty.\n",
+      "Metrics (KEY):\n  {}\n  rendering_time is not computed by this version; it stays empty.\n",
       fmt::join(analysis::kMetricKeys, "\n  "));
 }
 
@@ -44,8 +43,16 @@ cxxopts::Options make_options() {
       text(),
       "DEG")("dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000", text(),
              "N")("steps", "rendering time: rotations about each axis, 1 to 256, default 8", text(), "N")(
-      "weld-tolerance", "distance up to which vertices are one, in units of the file, at least 0, default 0",
-      text(), "L")("metrics", "compute only these, default all", text(), "KEY,...");
+      "start-searches",
+      "Fourier transform: most work on finding where the signal starts, the triangle farthest from all "
+      "others "
+      "of its part of the mesh; counted in walks over the whole part, at least 1, default 20000. Where the "
+      "work "
+      "ends before that triangle is proven, the table marks R_ft with ~ and names the gap: how much farther "
+      "another triangle may lie, at most. A larger N narrows it",
+      text(), "N")("weld-tolerance",
+                   "distance up to which vertices are one, in units of the file, at least 0, default 0",
+                   text(), "L")("metrics", "compute only these, default all", text(), "KEY,...");
   options.add_options("Rating")(
       "eye", "where the scene is seen from, world units; default a three-quarter view of the whole scene",
       text(), "X,Y,Z")("weights",
@@ -58,7 +65,12 @@ cxxopts::Options make_options() {
       "histograms",
       "write how often areas of triangles meet, per mesh a table (.csv) and a picture (.svg), into DIR; "
       "computes even where an analysis file is valid",
-      text(), "DIR");
+      text(), "DIR")("signals",
+                     "write what R_ft is computed from, per mesh the triangles' areas in their order and "
+                     "their spectrum as tables "
+                     "(-signal.csv, -spectrum.csv) and both as a picture (-signal.svg), into DIR; computes "
+                     "like --histograms",
+                     text(), "DIR");
   options.add_options("Running")(
       "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
       text(), "D")("cache-dir", "keep analysis files below DIR, default beside each asset", text(), "DIR")(
@@ -76,6 +88,10 @@ void read_measuring(const CommandLine& line, pipeline::Options& options) {
         static_cast<std::uint32_t>(parse_integer("dim", *dim, 2, std::numeric_limits<std::uint32_t>::max()));
   if (const auto steps = line.value("steps"))
     parameters.steps = static_cast<std::uint32_t>(parse_integer("steps", *steps, 1, 256));
+  // No mesh has more triangles than the greatest, and so many searches prove every start.
+  if (const auto searches = line.value("start-searches"))
+    parameters.start_searches =
+        parse_integer("start-searches", *searches, 1, std::numeric_limits<std::uint32_t>::max());
   if (const auto tolerance = line.value("weld-tolerance"))
     parameters.weld_tolerance = parse_number("weld-tolerance", *tolerance, 0,
                                              std::numeric_limits<double>::max(), "units of the file");
@@ -113,14 +129,14 @@ void check_output(const std::string& option, const fs::path& path, const std::ve
           fmt::format("--{}: '{}' is one of the assets and would be overwritten", option, path.string()));
 }
 
-void read_histograms(const CommandLine& line, AnalyzeRequest& request) {
-  const auto folder = line.value("histograms");
-  if (!folder) return;
-  if (folder->empty()) throw UsageError("--histograms needs a folder");
+std::optional<fs::path> read_folder(const CommandLine& line, const std::string& option) {
+  const auto folder = line.value(option);
+  if (!folder) return std::nullopt;
+  if (folder->empty()) throw UsageError(fmt::format("--{} needs a folder", option));
   std::error_code ignored;
   if (fs::exists(*folder, ignored) && !fs::is_directory(*folder, ignored))
-    throw UsageError(fmt::format("--histograms: '{}' is a file; a folder is needed", *folder));
-  request.histograms = *folder;
+    throw UsageError(fmt::format("--{}: '{}' is a file; a folder is needed", option, *folder));
+  return *folder;
 }
 
 void read_output(const CommandLine& line, AnalyzeRequest& request) {
@@ -141,15 +157,9 @@ void read_running(const CommandLine& line, AnalyzeRequest& request) {
     request.device = *device;
   }
   request.pipeline.use_analysis_files = !line.flag("no-cache");
-  const auto folder = line.value("cache-dir");
-  if (!folder) return;
-  if (folder->empty()) throw UsageError("--cache-dir needs a folder");
-  if (!request.pipeline.use_analysis_files)
+  request.pipeline.cache_folder = read_folder(line, "cache-dir");
+  if (request.pipeline.cache_folder && !request.pipeline.use_analysis_files)
     throw UsageError("--cache-dir and --no-cache contradict each other; leave one of them out");
-  std::error_code ignored;
-  if (fs::exists(*folder, ignored) && !fs::is_directory(*folder, ignored))
-    throw UsageError(fmt::format("--cache-dir: '{}' is a file; a folder is needed", *folder));
-  request.pipeline.cache_folder = *folder;
 }
 
 }  // namespace
@@ -172,7 +182,8 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
     if (asset.empty())
       throw UsageError("an asset's name is empty; is a variable of the calling script unset?");
   read_output(line, request);
-  read_histograms(line, request);
+  request.histograms = read_folder(line, "histograms");
+  request.signals = read_folder(line, "signals");
   return request;
 }
 

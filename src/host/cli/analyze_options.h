@@ -19,9 +19,9 @@ struct AnalyzeRequest {
   std::vector<std::string> assets;  // as given, at least one
   pipeline::Options pipeline;
   ratings::Options ratings;
-  std::optional<std::filesystem::path> json, csv;   // "-": standard output, at most one of the two
-  std::optional<std::filesystem::path> histograms;  // a folder, created when missing
-  std::string device;                               // selector, "" = the preferred one
+  std::optional<std::filesystem::path> json, csv;            // "-": standard output, at most one of the two
+  std::optional<std::filesystem::path> histograms, signals;  // folders, created when missing
+  std::string device;                                        // selector, "" = the preferred one
   LogLevel log = LogLevel::kNormal;
 
   bool table() const { return json != "-" && csv != "-"; }

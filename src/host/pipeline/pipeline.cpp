@@ -30,10 +30,10 @@ MetricSet set_of(std::initializer_list<Metric> metrics) {
   return set;
 }
 
-// What this version measures on the GPU and an analysis file may lack. The Fourier rating and the rendering
-// time are not computed yet: asking for them must not make every file look incomplete.
-const MetricSet kOptionalMetrics =
-    set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation, Metric::kCooccurrenceContrast});
+// What this version measures on the GPU and an analysis file may lack. The rendering time is not computed
+// yet: asking for it must not make every file look incomplete.
+const MetricSet kOptionalMetrics = set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation,
+                                           Metric::kCooccurrenceContrast, Metric::kFourierTransform});
 // Their stored part is counts, areas and bounds, which every analysis holds.
 const MetricSet kCommonMetrics = set_of({Metric::kRelativeDensity, Metric::kDistance});
 
@@ -110,6 +110,8 @@ Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
   const Progress report = progress ? progress : [](double, const std::string&) {};
   try {
     MetricSet wanted = options_.metrics & kOptionalMetrics;
+    // A signal's summary is stored: it has to count as computed, for its parameter to be compared later.
+    if (options_.signals) wanted.set(index_of(Metric::kFourierTransform));
     if (!options_.use_analysis_files || !reuse(asset, report, wanted, outcome))
       compute(asset, report, wanted, outcome);
     describe(*outcome.analysis, outcome.messages);
@@ -136,7 +138,7 @@ bool Pipeline::reuse(const fs::path& asset, const Progress& report, MetricSet& w
     return false;
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
-  if (!covers(stored.computed, wanted) || options_.histograms) {
+  if (!covers(stored.computed, wanted) || options_.histograms || options_.signals) {
     // Computing only what is missing would lose what the next run may ask for.
     wanted |= stored.computed & kOptionalMetrics;
     return false;
@@ -189,7 +191,12 @@ void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricS
     histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
       options_.histograms(analysis, geometry, histogram);
     };
-  measurer_->measure(scene, options_.parameters, wanted, inner, analysis, histograms);
+  SignalSink signals;
+  if (options_.signals)
+    signals = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
+      options_.signals(analysis, geometry, signal);
+    };
+  measurer_->measure(scene, options_.parameters, wanted, inner, analysis, histograms, signals);
 }
 
 void Pipeline::store(const fs::path& asset, bool unchanged, const Progress& report, Outcome& outcome) {

@@ -32,6 +32,10 @@ struct Options {
   std::function<void(const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
                      const analysis::Histogram& histogram)>
       histograms;
+  // The same for signals and their spectra, which includes the Fourier rating.
+  std::function<void(const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
+                     const analysis::SignalSpectrum& signal)>
+      signals;
 };
 
 // What became of one asset. Exactly one of `analysis` and `error` is meaningful.

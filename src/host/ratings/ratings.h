@@ -61,6 +61,10 @@ SceneRating rate(std::span<const analysis::AssetAnalysis> assets, const Options&
 double polygons_per_planar_group(std::uint64_t triangles, std::uint64_t groups);
 // sqrt(sum of squared sizes of groups with more than one triangle) / n; the sum is exact below 2^53.
 double planar_group_variation(std::uint64_t triangles, double squared_sizes);
+// From the magnitudes |X_0| = `zero` and |X_1|..|X_c| of a signal of `length` areas, c = floor(length / 2):
+// their `largest`, their `sum` and `weighted_sum`, the sum of k |X_k|. 0 below two samples, or where the sum
+// is at most 1e-12 |X_0|: rounding alone. In [0,1] for a signal without negative values.
+double fourier_transform(double zero, double largest, double sum, double weighted_sum, std::uint64_t length);
 struct DensityStatistics {
   double mean = 0, deviation = 0;
 };

@@ -19,10 +19,10 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-// A mesh with every field that can be null filled in where that changes the columns: bounds only.
+// A mesh with every field that can be null filled in where that changes the columns: signal and bounds.
 ordered_json full_shape() {
   analysis::AssetAnalysis asset;
-  asset.geometries.emplace_back();
+  asset.geometries.emplace_back().signal = analysis::SignalSummary();
   asset.instances.emplace_back().bounds = analysis::Bounds();
   SceneReport report;
   report.assets = std::span(&asset, 1);

@@ -84,11 +84,23 @@ ordered_json parameters(const SceneReport& report) {
   return {{"alpha", number(report.parameters.alpha_degrees)},
           {"dim", report.parameters.dim},
           {"steps", report.parameters.steps},
+          {"start_searches", report.parameters.start_searches},
           {"weld_tolerance", number(report.parameters.weld_tolerance)},
           {"metrics", std::move(metrics)},
           {"weights", std::move(weights)},
           {"relative", report.options.relative},
           {"eye", point(report.options.eye)}};
+}
+
+// Lengths are scaled like the row's area, which the square of the instance's scale takes to world units.
+ordered_json signal(const std::optional<analysis::SignalSummary>& summary, double area_scale) {
+  if (!summary) return nullptr;
+  const bool starts = summary->length > 0;  // else no triangle has a neighbour
+  return {{"length", summary->length},
+          {"start_triangle", starts ? ordered_json(summary->start_triangle) : ordered_json()},
+          {"mean_distance", starts ? number(summary->mean_distance * std::sqrt(area_scale)) : ordered_json()},
+          {"gap", number(summary->gap)},
+          {"searches", summary->searches}};
 }
 
 ordered_json scene(const ratings::SceneRating& rating) {
@@ -145,6 +157,7 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
   row["non_manifold_edges"] = or_null(geometry.non_manifold_edges);
   row["boundary_edges"] = or_null(geometry.boundary_edges);
   row["area_classes"] = or_null(geometry.area_classes);
+  row["signal"] = signal(geometry.signal, instance.area_scale);
   row["surface_area"] = known ? number(mesh.surface_area) : ordered_json();
   row["density"] = or_null(mesh.density);
   row["bounds"] = box(instance.bounds);

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "ratings/ratings.h"
-#include "report/terminal_text.h"
+#include "report/svg.h"
 
 namespace scene_analyzer::report {
 namespace {
@@ -19,29 +19,8 @@ using analysis::kHistogramBins;
 // Picture units: cells of the heatmap, and the margins around it.
 constexpr std::uint32_t kCell = 8, kLeft = 44, kTop = 52, kSide = kCell * kHistogramBins;
 constexpr std::uint32_t kBar = kLeft + kSide + 24, kWidth = kBar + 110, kHeight = kTop + kSide + 60;
-constexpr std::size_t kTitleColumns = 60;
 // Shades of the picture: as many as an eye tells apart in a map, so that equal cells can share one element.
 constexpr std::size_t kShades = 32;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result.push_back(c);
-  }
-  return result;
-}
-
-std::string title_of(const std::string& text) {
-  const UnicodeScope unicode;
-  return escaped(encode_utf8(shortened(printable(text), kTitleColumns)));
-}
 
 std::size_t shade_of(std::uint64_t count, std::uint64_t most) {
   if (most <= 1) return kShades - 1;
@@ -81,23 +60,15 @@ void append_cells(std::string& out, const std::vector<std::uint64_t>& bins, std:
   out += "</g>\n";
 }
 
-void append_text(std::string& out, double x, double y, const char* anchor, const std::string& text,
-                 const char* more = "") {
-  out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, text);
-}
-
 void append_axes(std::string& out, double lowest, double highest) {
   const std::string low = fmt::format("{:.4g}", lowest), high = fmt::format("{:.4g}", highest);
   const double bottom = kTop + kSide, right = kLeft + kSide;
   append_text(out, kLeft, bottom + 18, "start", low);
   append_text(out, right, bottom + 18, "end", high);
   append_text(out, kLeft + kSide / 2.0, bottom + 40, "middle", "area of the triangle");
-  const auto upright = [&](double y, const char* anchor, const std::string& text, double x) {
-    append_text(out, x, y, anchor, text, fmt::format(" transform=\"rotate(-90 {} {})\"", x, y).c_str());
-  };
-  upright(bottom, "start", low, kLeft - 8);
-  upright(kTop, "end", high, kLeft - 8);
-  upright(kTop + kSide / 2.0, "middle", "area of its neighbour", kLeft - 22);
+  append_upright(out, kLeft - 8, bottom, "start", low);
+  append_upright(out, kLeft - 8, kTop, "end", high);
+  append_upright(out, kLeft - 22, kTop + kSide / 2.0, "middle", "area of its neighbour");
 }
 
 void append_scale(std::string& out, std::uint64_t most) {
@@ -124,14 +95,7 @@ std::string histogram_csv(const Histogram& histogram, double area_scale) {
 
 std::string histogram_svg(const Histogram& histogram, double area_scale, const std::string& title) {
   const std::uint64_t most = *std::ranges::max_element(histogram.bins);
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n<rect width=\"{0}\" height=\"{1}\" "
-      "fill=\"#fff\"/>\n",
-      kWidth, kHeight);
-  const std::string name = title_of(title);
-  out += fmt::format("<title>{}</title>\n", name);
-  append_text(out, kLeft, 22, "start", name, " font-size=\"16\" font-weight=\"bold\"");
+  std::string out = svg_head(kWidth, kHeight, kLeft, title);
   append_text(out, kLeft, 42, "start", "How often triangles of two areas share an edge");
   append_cells(out, histogram.bins, most);
   append_axes(out, histogram.values.front() * area_scale, histogram.values.back() * area_scale);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "report/gap_text.h"
 #include "report/report.h"
 #include "report/terminal_text.h"
 
@@ -15,10 +16,13 @@ using analysis::GeometryAnalysis;
 using analysis::InstanceAnalysis;
 using analysis::kMetricCount;
 using analysis::kMetricSymbols;
+using analysis::Metric;
 
 constexpr std::size_t kCountWidth = 9;   // 100 million triangles; longer counts push their row aside
 constexpr std::size_t kRatingWidth = 7;  // -0.1234
 constexpr std::size_t kNumbersWidth = 2 * (1 + kCountWidth) + (kMetricCount + 1) * (1 + kRatingWidth);
+// Before an R_ft whose start triangle is not proven; "~0.0917" fills a cell of an unsigned rating.
+constexpr std::string_view kOpenMark = "~";
 constexpr std::size_t kLeastNameWidth = 12;
 constexpr std::size_t kMostNameWidth = 64;  // one absurd name must not blow up every row
 
@@ -77,8 +81,10 @@ std::string rating_text(const std::optional<double>& rating) {
   return fmt::format("{:.4f}", std::abs(*rating) < 0.00005 ? 0.0 : *rating);
 }
 
-void append_rating(std::string& out, const std::optional<double>& rating, const TableStyle& style) {
-  const std::string text = fmt::format("{:>{}}", rating_text(rating), kRatingWidth);
+void append_rating(std::string& out, const std::optional<double>& rating, const TableStyle& style,
+                   std::string_view mark = "") {
+  const std::string text =
+      fmt::format("{:>{}}", (rating ? std::string(mark) : "") + rating_text(rating), kRatingWidth);
   out += ' ';
   if (!style.color || !rating) {
     out += text;
@@ -96,6 +102,11 @@ std::string count_text(const std::optional<std::uint64_t>& count) {
   return fmt::format(" {:>{}}", count ? fmt::to_string(*count) : "-", kCountWidth);
 }
 
+// How much farther another triangle than the signal's start may lie, or 0: R_ft may depend on it.
+double gap_of(const GeometryAnalysis& geometry) {
+  return geometry.signal ? geometry.signal->gap : 0;
+}
+
 std::string head_line(std::size_t width) {
   std::string line = padded_name(U"name", width);
   line += fmt::format(" {:>{}} {:>{}}", "triangles", kCountWidth, "groups", kCountWidth);
@@ -111,13 +122,35 @@ void append_row(std::string& out, const Row& row, std::size_t width, const Scene
   out += count_text(row.geometry->planar_groups);
   // The aggregate is made of these, so they are the ones to show beside it.
   const auto& shown = report.options.relative ? row.rating->relative_ratings : row.rating->ratings;
-  for (const std::optional<double>& rating : shown) append_rating(out, rating, style);
+  for (std::size_t i = 0; i < kMetricCount; ++i) {
+    const bool open = i == index_of(Metric::kFourierTransform) && gap_of(*row.geometry) > 0;
+    append_rating(out, shown[i], style, open ? kOpenMark : "");
+  }
   append_rating(out, row.rating->aggregate, style);
   out += '\n';
 }
 
 std::string plural(std::uint64_t count, std::string_view singular, std::string_view many) {
   return fmt::format("{} {}", count, count == 1 ? singular : many);
+}
+
+// What the mark beside an R_ft means, in lines that fit wherever a row does; nothing where no mesh has it.
+std::string gap_note(const SceneReport& report) {
+  std::size_t meshes = 0;
+  double widest = 0;
+  for (const ratings::MeshRating& mesh : report.rating.meshes) {
+    const analysis::AssetAnalysis& asset = report.assets[mesh.asset];
+    const double gap = gap_of(asset.geometries.at(asset.instances.at(mesh.instance).geometry));
+    if (!(gap > 0) || !mesh.ratings[index_of(Metric::kFourierTransform)]) continue;
+    ++meshes;
+    widest = std::max(widest, gap);
+  }
+  if (meshes == 0) return "";
+  return fmt::format(
+      "{0} R_ft is not final for {1}: it depends on which triangle lies farthest from the others.\n"
+      "  The search for it ended early: another one may lie up to {2} farther out (worst mesh).\n"
+      "  A larger --start-searches looks longer.\n",
+      kOpenMark, plural(meshes, "mesh", "meshes"), gap_percent(widest));
 }
 
 std::string totals_line(const SceneReport& report) {
@@ -154,7 +187,7 @@ std::string table(const SceneReport& report, const TableStyle& style) {
                        plural(total - shown, "more mesh", "more meshes"));
   const std::size_t rule = width + kNumbersWidth;
   out += std::string(style.width == 0 ? rule : std::min(rule, style.width), '-') + '\n';
-  return out + totals_line(report);
+  return out + totals_line(report) + gap_note(report);
 }
 
 }  // namespace scene_analyzer::report
