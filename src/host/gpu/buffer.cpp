@@ -33,17 +33,8 @@ void check_limits(const DeviceInfo& info, const std::string& name, std::uint64_t
       refuse(name, bytes, "this machine has " + std::to_string(*free) + " bytes of memory left");
 }
 
-void fail_when_told(Faults& faults) {
-  if (!faults.allocations_until_failure) return;
-  if (*faults.allocations_until_failure == 0) {
-    faults.allocations_until_failure.reset();
-    throw vk::OutOfDeviceMemoryError("asked for by a test");
-  }
-  --*faults.allocations_until_failure;
-}
-
 void allocate(Device::Native& native, Buffer::Impl& impl, std::uint32_t type, std::uint64_t bytes) {
-  fail_when_told(native.faults);
+  if (allocation_fails(native.faults)) throw vk::OutOfDeviceMemoryError("asked for by a test");
   impl.memory = vk::raii::DeviceMemory(native.device, {.allocationSize = bytes, .memoryTypeIndex = type});
   impl.buffer.bindMemory(*impl.memory, 0);
 }

@@ -61,6 +61,7 @@ void create_objects(Device::Native& native, const DeviceOptions& options) {
       native.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = native.queue_family}};
   native.fence = {native.device, vk::FenceCreateInfo{}};
+  native.cache_folder = options.cache_folder;
   native.pipeline_cache = PipelineCache(native.device, properties, options.cache_folder);
 }
 
@@ -76,16 +77,16 @@ void wait_for_fence(const Device::Native& native, const std::string& doing) {
   }
 }
 
-void submit(Device::Native& native, const vk::raii::CommandBuffer& commands) {
+void submit(Device::Native& native, vk::CommandBuffer commands) {
   native.device.resetFences(*native.fence);
-  const vk::CommandBufferSubmitInfo buffer{.commandBuffer = *commands};
+  const vk::CommandBufferSubmitInfo buffer{.commandBuffer = commands};
   native.queue.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer},
                        *native.fence);
 }
 
 }  // namespace
 
-void Device::Native::submit_and_wait(const vk::raii::CommandBuffer& commands, const std::string& doing) {
+void Device::Native::submit_and_wait(vk::CommandBuffer commands, const std::string& doing) {
   if (std::exchange(faults.lose_device_at_next_submit, false)) lost = true;
   if (lost) throw DeviceLost(device_lost_message(doing));
   try {

@@ -20,6 +20,7 @@ class Kernel {
   std::uint32_t local_size() const;           // threads per workgroup (one-dimensional)
   std::uint32_t buffer_count() const;         // storage buffers, bindings 0..count-1 of set 0
   std::uint32_t push_constant_bytes() const;  // size of the parameter block, 0 when there is none
+  explicit operator bool() const { return impl_ != nullptr; }
 
   struct Impl;
   Impl& impl() const { return *impl_; }

@@ -58,12 +58,13 @@ struct Device::Native {
   vk::raii::CommandPool command_pool{nullptr};  // command buffers can be reset one by one
   vk::raii::Fence fence{nullptr};               // one is enough: submissions are synchronous
   PipelineCache pipeline_cache;
-  std::unique_ptr<Buffer::Impl> staging{};  // host-visible, made at the first copy that needs it
+  std::optional<std::filesystem::path> cache_folder;  // where files that save time are kept; absent: nowhere
+  std::unique_ptr<Buffer::Impl> staging{};            // host-visible, made at the first copy that needs it
 
   // The only way to the queue: submits the ended commands, waits in slices with a message when it takes long,
   // and turns every result into an exception of the gpu room. `doing` goes into that message: "running 12
   // dispatches".
-  void submit_and_wait(const vk::raii::CommandBuffer& commands, const std::string& doing);
+  void submit_and_wait(vk::CommandBuffer commands, const std::string& doing);
   vk::raii::CommandBuffer make_commands();
   // Shown by the validation layer and by debuggers; does nothing without validation.
   void set_name(vk::ObjectType type, std::uint64_t handle, const std::string& name) const;

@@ -192,7 +192,7 @@ void Recorder::submit_and_wait() {
       record_barrier_to_host(impl_->commands);
       impl_->commands.end();
     });
-    impl_->device.native().submit_and_wait(impl_->commands, doing);
+    impl_->device.native().submit_and_wait(*impl_->commands, doing);
     if (impl_->stopwatch)
       impl_->timings = translated("reading timestamps", [&] { return impl_->stopwatch->take(); });
   } catch (...) {

@@ -39,7 +39,7 @@ void copy_and_wait(Device::Native& native, vk::Buffer from, vk::Buffer to, const
     record_barrier_to_host(commands);
     commands.end();
   });
-  native.submit_and_wait(commands, doing);
+  native.submit_and_wait(*commands, doing);
 }
 
 }  // namespace
