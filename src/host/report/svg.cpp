@@ -46,7 +46,8 @@ std::string svg_head(std::uint32_t width, std::uint32_t height, std::uint32_t le
 
 void append_text(std::string& out, double x, double y, const char* anchor, const std::string& text,
                  const char* more) {
-  out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, text);
+  out += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                     text);
 }
 
 void append_upright(std::string& out, double x, double y, const char* anchor, const std::string& text) {
