@@ -52,6 +52,17 @@ void fill_contrast(GeometryAnalysis& geometry, double sum, std::uint64_t classes
       with_neighbour == 0 ? 0 : std::min(1.0, sum / static_cast<double>(with_neighbour));
 }
 
+void fill_signal(GeometryAnalysis& geometry, const surface_distances::Signal& signal,
+                 const spectrum::SpectrumTotals& spectrum) {
+  geometry.signal = analysis::SignalSummary{.length = signal.areas.size(),
+                                            .start_triangle = signal.start_triangle,
+                                            .mean_distance = signal.mean_distance,
+                                            .gap = signal.gap,
+                                            .searches = signal.searches};
+  geometry.fourier_transform = ratings::fourier_transform(spectrum.zero, spectrum.largest, spectrum.sum,
+                                                          spectrum.weighted_sum, signal.areas.size());
+}
+
 }  // namespace
 
 void BatchRun::run() {
@@ -85,29 +96,20 @@ void BatchRun::search_signals(SignalSearch& search) {
 }
 
 void BatchRun::transform_signals(const std::vector<surface_distances::Signal>& signals) {
-  for (std::size_t mesh = 0; mesh < signals.size(); ++mesh) {
-    if (totals_[mesh].kept == 0) continue;
-    const surface_distances::Signal& signal = signals[mesh];
-    target(mesh).signal = analysis::SignalSummary{.length = signal.areas.size(),
-                                                  .start_triangle = signal.start_triangle,
-                                                  .mean_distance = signal.mean_distance,
-                                                  .gap = signal.gap,
-                                                  .searches = signal.searches};
-  }
   std::vector<std::span<const double>> samples;
   for (const surface_distances::Signal& signal : signals) samples.emplace_back(signal.areas);
-  spectrum::MagnitudeSink magnitudes;
+  std::vector<std::vector<double>> magnitudes(signals.size());
+  spectrum::MagnitudeSink keep;
   if (signals_)
-    magnitudes = [&](std::size_t mesh, std::span<const double> values) {
-      if (totals_[mesh].kept > 0)
-        signals_(plan_.geometries[mesh], {.areas = samples[mesh], .magnitudes = values});
+    keep = [&](std::size_t mesh, std::span<const double> values) {
+      magnitudes[mesh].assign(values.begin(), values.end());
     };
-  const auto spectra = stages_.spectra.transform(samples, magnitudes);
-  for (std::size_t mesh = 0; mesh < signals.size(); ++mesh)
-    if (totals_[mesh].kept > 0)
-      target(mesh).fourier_transform =
-          ratings::fourier_transform(spectra[mesh].zero, spectra[mesh].largest, spectra[mesh].sum,
-                                     spectra[mesh].weighted_sum, samples[mesh].size());
+  const auto spectra = stages_.spectra.transform(samples, keep);
+  for (std::size_t mesh = 0; mesh < signals.size(); ++mesh) {
+    if (totals_[mesh].kept == 0) continue;
+    fill_signal(target(mesh), signals[mesh], spectra[mesh]);
+    if (signals_) signals_(plan_.geometries[mesh], {.areas = samples[mesh], .magnitudes = magnitudes[mesh]});
+  }
 }
 
 void BatchRun::measure_geometry() {
