@@ -51,9 +51,11 @@ class Candidates {
   void lower_upper(std::uint32_t v, double bound) {
     if (searched_[v] == 0) upper_[v] = std::min(upper_[v], bound);
   }
-  // `distances`: from a triangle of the given total to all.
+  // `distances`: from a node of the given total to all. Of the n differences between two triangles' distances
+  // to the others that to themselves cancel out, which leaves n - 2 of at most their own distance. So, too,
+  // for an edge's node and a triangle; for one that hangs on this edge alone the bound is its total.
   void bound_all(double total, std::span<const double> distances) {
-    const auto n = static_cast<double>(count());
+    const auto n = static_cast<double>(count()) - 2;
     for (std::uint32_t v = 0; v < count(); ++v) {
       if (searched_[v] == 0) upper_[v] = std::min(upper_[v], total + n * distances[v]);
       nearest_[v] = std::min(nearest_[v], static_cast<float>(distances[v]));

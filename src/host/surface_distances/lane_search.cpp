@@ -18,7 +18,7 @@ namespace {
 
 // Where more than one of so many rows are near, all are treated like those.
 constexpr std::uint32_t kNearParts = 4;
-// Steps per row after which lanes are searched one by one: by then that would have been done.
+// Steps per row and arc after which lanes are searched one by one: by then that would have been done.
 constexpr std::uint64_t kMostSteps = 5;
 
 // target = min(target, source + length) in every lane; whether that changed anything.
@@ -45,10 +45,11 @@ WIDEST_VECTORS bool spread(const LaneGraph& graph, Lanes* distances, std::uint64
       ++word;
       continue;
     }
-    if (++steps > most_steps) return false;
+    if (steps > most_steps) return false;
     const auto row =
         static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(waiting[word]));
     waiting[word] &= waiting[word] - 1;
+    steps += 1 + graph.first[row + 1] - graph.first[row];
     for (std::uint32_t arc = graph.first[row]; arc < graph.first[row + 1]; ++arc) {
       const std::uint32_t target = graph.target[arc];
       if (!relax(distances[row], graph.length[arc], distances[target])) continue;
@@ -153,7 +154,8 @@ bool LaneSearch::search_together(const LaneGraph& graph, std::span<const std::ui
     search_apart(graph, sources, near);
     for (std::uint32_t row = 0; row < near; ++row) wait(row);
   }
-  return spread(graph, distances_.data(), waiting_.data(), waiting_.size(), kMostSteps * graph.rows());
+  return spread(graph, distances_.data(), waiting_.data(), waiting_.size(),
+                kMostSteps * (graph.rows() + graph.target.size()));
 }
 
 // On the part of the graph that rows [0, rows) make.

@@ -11,6 +11,9 @@ namespace {
 // Rows up to so many times the members' distance from the middle are searched lane by lane.
 constexpr double kNearReach = 3;
 constexpr std::size_t kParts = 4;  // that a patch is split into
+// Splits in a row, after which the rest is bounded as it is: patches that do not fall apart would go on for
+// ever.
+constexpr unsigned kMostSplits = 8;
 // Of the way from a patch's totals to the threshold, the part that contraction may use up.
 constexpr double kSlackShare = 0.1;
 
@@ -40,6 +43,7 @@ PatchResult PatchBounder::bound(const std::vector<std::uint32_t>& patch, const C
 // `whole`: the graph is not contracted, totals are true.
 void PatchBounder::refine(const LaneGraph& rows, std::vector<Member> members, std::uint32_t near, bool whole,
                           PatchResult& result) {
+  if (depth_ == kMostSplits && members.size() > kLanes) return refine_in_groups(rows, members, near, result);
   const std::vector<std::size_t> sources = spread_sources(members);
   std::vector<std::uint32_t> source_rows;
   for (const std::size_t source : sources) source_rows.push_back(members[source].row);
@@ -51,6 +55,15 @@ void PatchBounder::refine(const LaneGraph& rows, std::vector<Member> members, st
   for (const std::size_t source : sources) highest = std::max(highest, members[source].upper);
   const double slack = std::max(0.0, best_ * (1 - kTie) - highest);
   split(rows, open, sources.size(), slack, result);
+}
+
+void PatchBounder::refine_in_groups(const LaneGraph& rows, const std::vector<Member>& members,
+                                    std::uint32_t near, PatchResult& result) {
+  for (std::size_t begin = 0; begin < members.size(); begin += kLanes) {
+    const auto first = members.begin() + static_cast<std::ptrdiff_t>(begin);
+    refine(rows, {first, first + static_cast<std::ptrdiff_t>(std::min(kLanes, members.size() - begin))}, near,
+           false, result);
+  }
 }
 
 // Members far from each other; all of them when they fit.
@@ -135,7 +148,9 @@ void PatchBounder::split(const LaneGraph& rows, const std::vector<Member>& open,
     std::vector<std::uint32_t> new_row;
     const LaneGraph ordered = order_by_distance(smaller.graph, order[p], new_row);
     for (Member& member : part[p]) member.row = new_row[smaller.row[member.row]];
+    ++depth_;
     refine(ordered, std::move(part[p]), count_within(order[p], kNearReach * radius[p]), false, result);
+    --depth_;
   }
 }
 

@@ -33,6 +33,8 @@ class PatchBounder {
     std::uint32_t row, node;
     double upper;
   };
+  void refine_in_groups(const LaneGraph& rows, const std::vector<Member>& members, std::uint32_t near,
+                        PatchResult& result);
   void refine(const LaneGraph& rows, std::vector<Member> members, std::uint32_t near, bool whole,
               PatchResult& result);
   std::vector<std::size_t> spread_sources(const std::vector<Member>& members) const;
@@ -47,6 +49,7 @@ class PatchBounder {
   LaneSearch search_;
   const Candidates* candidates_ = nullptr;
   double best_ = 0;
+  unsigned depth_ = 0;  // how often the graph at hand was contracted
 };
 
 }  // namespace scene_analyzer::surface_distances

@@ -11,7 +11,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A ring longer than this would cost more to walk than wide buckets cost in repeated visits.
 constexpr double kMostBuckets = 1 << 15;
-// Visits per node after which the buckets are given up.
+// Visits per arc after which the buckets are given up.
 constexpr std::uint64_t kMostVisits = 8;
 
 }  // namespace
@@ -45,7 +45,7 @@ bool ShortestPaths::run_buckets(std::uint32_t source, std::span<double> distance
   std::ranges::fill(distances, kInfinity);
   distances[source] = 0;
   const std::size_t mask = ring_.size() - 1;
-  const std::uint64_t most_visits = kMostVisits * nodes_ + 64;
+  const std::uint64_t most_visits = kMostVisits * (nodes_ + arcs_.first[nodes_]);
   ring_[0].push_back({0, source});
   std::uint64_t waiting = 1, visits = 0;
   for (std::size_t current = 0; waiting > 0 && visits <= most_visits; ++current) {
@@ -54,7 +54,7 @@ bool ShortestPaths::run_buckets(std::uint32_t source, std::span<double> distance
     for (std::size_t i = 0; i < bucket.size() && visits <= most_visits; ++i) {
       const Entry entry = bucket[i];
       if (entry.distance > distances[entry.node]) continue;
-      ++visits;
+      visits += 1 + arcs_.first[entry.node + 1] - arcs_.first[entry.node];
       for (std::uint32_t arc = arcs_.first[entry.node]; arc < arcs_.first[entry.node + 1]; ++arc) {
         const double distance = entry.distance + arcs_.length[arc];
         const std::uint32_t target = arcs_.target[arc];

@@ -20,6 +20,9 @@ constexpr std::size_t kPatchesPerRound = 8;
 // Sources that alternate with the triangle farthest from all before: they see the whole shape, and are the
 // landmarks.
 constexpr std::size_t kScouts = 16;
+// Edges with at least so many triangles, and at most so many edges, are searched from, too.
+constexpr std::uint32_t kLeastOnHub = 16;
+constexpr std::size_t kMostHubs = 8;
 // A search that closes a smaller part of the triangles is no longer worth its time...
 constexpr double kWorthwhile = 0.002;
 // ... unless so few are left that patches would take longer.
@@ -76,7 +79,7 @@ class StartSearch {
       totals[i] = total_distance(graph_, distances_[i]);
     });
     for (std::size_t i = 0; i < sources.size(); ++i) {
-      candidates_.set_total(sources[i], totals[i]);
+      if (sources[i] < graph_.triangles) candidates_.set_total(sources[i], totals[i]);
       candidates_.bound_all(totals[i], distances_[i]);
     }
     work_ += sources.size() * graph_.nodes();
@@ -90,6 +93,21 @@ class StartSearch {
     const auto triangles = std::span(distances_[0]).first(graph_.triangles);
     extent_ = *std::ranges::max_element(triangles);
     search({static_cast<std::uint32_t>(std::ranges::max_element(triangles) - triangles.begin())});
+    search(hubs());
+  }
+
+  // Edges with the most triangles, many of which may hang on nothing else.
+  std::vector<std::uint32_t> hubs() const {
+    const auto triangles_on = [&](std::uint32_t node) { return graph_.first[node + 1] - graph_.first[node]; };
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t node = graph_.triangles; node < graph_.nodes(); ++node)
+      if (triangles_on(node) >= kLeastOnHub) nodes.push_back(node);
+    const std::size_t taken = std::min(nodes.size(), kMostHubs);
+    std::ranges::partial_sort(
+        nodes, nodes.begin() + static_cast<std::ptrdiff_t>(taken), {},
+        [&](std::uint32_t node) { return std::pair(-std::int64_t{triangles_on(node)}, node); });
+    nodes.resize(taken);
+    return nodes;
   }
 
   void search_best_first() {
