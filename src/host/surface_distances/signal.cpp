@@ -1,13 +1,10 @@
 #include "surface_distances/signal.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <thread>
 #include <tuple>
 
 #include "surface_distances/shortest_paths.h"
@@ -144,30 +141,15 @@ class Measuring {
     // The largest first, so that no thread is left with one at the end.
     std::ranges::stable_sort(small_, std::greater<>(),
                              [&](const Task& task) { return component(task).graph.triangles; });
-    std::atomic<std::size_t> next = 0;
-    std::exception_ptr failure;
-    const auto work = [&] {
-      try {
-        for (std::size_t i = next++; i < small_.size(); i = next++) measure_task(small_[i], 1);
-      } catch (...) {
-        const std::scoped_lock lock(mutex_);
-        if (!failure) failure = std::current_exception();
-        next = small_.size();
-      }
-    };
-    {
-      std::vector<std::jthread> threads;
-      for (std::size_t i = 1; i < std::min<std::size_t>(options_.threads, small_.size() / 8); ++i)
-        threads.emplace_back(work);
-      work();
-    }
-    if (failure) std::rethrow_exception(failure);
+    // Threads cost more than the smallest searches.
+    const std::size_t workers = std::min<std::size_t>(options_.threads, small_.size() / 8 + 1);
+    run_side_by_side(small_.size(), workers, options_.stop,
+                     [&](std::size_t i, std::size_t) { measure_task(small_[i], 1); });
   }
 
   Component& component(const Task& task) { return components_[task.mesh][task.component]; }
 
   void measure_task(const Task& task, unsigned threads) {
-    if (options_.stop.stop_requested()) throw Cancelled{};
     Component& component = this->component(task);
     const std::uint32_t triangles = component.graph.triangles;
     StartSearchOptions options{

@@ -1,10 +1,8 @@
 #include "surface_distances/start_triangle.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "surface_distances/candidates.h"
@@ -56,18 +54,9 @@ class StartSearch {
  private:
   bool spent() const { return work_ >= options_.most_searches * graph_.nodes(); }
 
-  // Runs task(i, worker) for i in [0, count).
   template <typename Task>
   void side_by_side(std::size_t count, Task task) {
-    if (options_.stop.stop_requested()) throw Cancelled{};
-    const std::size_t workers = std::min(count, paths_.size());
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&](std::size_t worker) {
-      for (std::size_t i = next++; i < count; i = next++) task(i, worker);
-    };
-    std::vector<std::jthread> threads;
-    for (std::size_t worker = 1; worker < workers; ++worker) threads.emplace_back(work, worker);
-    work(0);
+    run_side_by_side(count, paths_.size(), options_.stop, task);
   }
 
   void search(const std::vector<std::uint32_t>& sources) {
@@ -118,7 +107,7 @@ class StartSearch {
       searches += sources.size();
       const std::size_t before = open.size();
       open = candidates_.open();
-      report(searches, open.size());
+      report(open.size());
       const double worthwhile = kWorthwhile * static_cast<double>(sources.size()) * graph_.triangles;
       if (searches > kScouts && open.size() > kFew && static_cast<double>(before - open.size()) < worthwhile)
         return;
@@ -252,7 +241,7 @@ class StartSearch {
             .searches = (work_ + graph_.nodes() - 1) / graph_.nodes()};
   }
 
-  void report(std::size_t, std::size_t open) const {
+  void report(std::size_t open) const {
     if (options_.progress) options_.progress(0.5 * (1 - static_cast<double>(open) / graph_.triangles));
   }
 

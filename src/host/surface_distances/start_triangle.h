@@ -18,6 +18,7 @@
 #include <stop_token>
 
 #include "surface_distances/dual_graph.h"
+#include "surface_distances/side_by_side.h"
 
 namespace scene_analyzer::surface_distances {
 
@@ -30,8 +31,6 @@ struct StartSearchOptions {
   std::function<void(double fraction)> progress =
       {};  // about how much is done; called from the calling thread
 };
-
-struct Cancelled {};
 
 struct StartTriangle {
   std::uint32_t node = 0;
