@@ -14,12 +14,15 @@
 #include "interface/mesh.h"
 #include "interface/planar_groups.h"
 #include "interface/primitives.h"
+#include "interface/spectrum.h"
 #include "join_coplanar.spv.h"
 #include "locate_shared.spv.h"
 #include "make_area_keys.spv.h"
+#include "modulate_signals.spv.h"
 #include "number_members.spv.h"
 #include "scatter_digits.spv.h"
 #include "support/gpu_test.h"
+#include "total_magnitudes.spv.h"
 
 namespace scene_analyzer {
 namespace {
@@ -43,10 +46,15 @@ TEST_F(InterfaceTest, BuffersHoldTheSameStructsOnBothSides) {
   gpu::Array<interface::planar_groups::PlanarTotals> planar(device(), "planar", 2);
   gpu::Array<interface::cooccurrence::SortedRange> ranges(device(), "ranges", 2);
   gpu::Array<interface::cooccurrence::ClassRange> classes(device(), "classes", 2);
+  gpu::Array<interface::spectrum::SpectrumPart> parts(device(), "parts", 2);
+  gpu::Array<interface::spectrum::ShortSignal> short_signals(device(), "short signals", 2);
+  gpu::Array<interface::spectrum::ChirpSignal> chirp_signals(device(), "chirp signals", 2);
+  gpu::Array<interface::spectrum::Segment> segments(device(), "segments", 2);
   const gpu::Kernel kernel = device().make_kernel("number_members", number_members_spv);
   gpu::Recorder recorder(device());
   recorder.run(kernel, 1, gpu::NoParams{},
-               {records, chunks, geometry, instances, topology, planar, ranges, classes});
+               {records, chunks, geometry, instances, topology, planar, ranges, classes, parts, short_signals,
+                chirp_signals, segments});
   recorder.submit_and_wait();
 
   check_both(device(), records, [](const auto& e, unsigned n) {
@@ -83,6 +91,22 @@ TEST_F(InterfaceTest, BuffersHoldTheSameStructsOnBothSides) {
   check_both(device(), classes, [](const auto& e, unsigned n) {
     EXPECT_EQ((std::array{e.lowest, e.highest}), (std::array{n + 1.0, n + 2.0}));
     EXPECT_EQ((std::array{e.first, e.count}), (std::array{n + 3, n + 4}));
+  });
+  check_both(device(), parts, [](const auto& e, unsigned n) {
+    EXPECT_EQ((std::array{e.zero, e.largest, e.sum, e.weighted_sum}),
+              (std::array{n + 1.0, n + 2.0, n + 3.0, n + 4.0}));
+  });
+  check_both(device(), short_signals, [](const auto& e, unsigned n) {
+    EXPECT_EQ((std::array{e.first_sample, e.size, e.first_root, e.first_magnitude}),
+              (std::array{n + 1, n + 2, n + 3, n + 4}));
+  });
+  check_both(device(), chirp_signals, [](const auto& e, unsigned n) {
+    EXPECT_EQ(e.inverse_period, n + 1.0);
+    EXPECT_EQ((std::array{e.first_sample, e.size, e.first_phase, e.fine_bits, e.chirp, e.first_magnitude}),
+              (std::array{n + 2, n + 3, n + 4, n + 5, n + 6, n + 7}));
+  });
+  check_both(device(), segments, [](const auto& e, unsigned n) {
+    EXPECT_EQ((std::array{e.signal, e.first, e.count}), (std::array{n + 1, n + 2, n + 3}));
   });
 }
 
@@ -129,6 +153,22 @@ TEST(InterfaceBlocks, OffsetsAreThoseOfCpp) {
   expect_block(scatter_digits_spv, sizeof(primitives::SortParams),
                {MEMBER(primitives::SortParams, count), MEMBER(primitives::SortParams, shift),
                 MEMBER(primitives::SortParams, tiles)});
+  const auto with_shape = [](std::vector<Member> members, std::size_t shape) {
+    const Member inside[] = {MEMBER(spectrum::RowShape, radix), MEMBER(spectrum::RowShape, inner_bits),
+                             MEMBER(spectrum::RowShape, inner_radices)};
+    for (const Member& member : inside) members.push_back({member.name, shape + member.offset, member.size});
+    return members;
+  };
+  expect_block(modulate_signals_spv, sizeof(spectrum::RowParams),
+               with_shape({MEMBER(spectrum::RowParams, groups), MEMBER(spectrum::RowParams, groups_per_row),
+                           MEMBER(spectrum::RowParams, first_row), MEMBER(spectrum::RowParams, first),
+                           MEMBER(spectrum::RowParams, elements)},
+                          offsetof(spectrum::RowParams, shape)));
+  expect_block(
+      total_magnitudes_spv, sizeof(spectrum::TotalParams),
+      with_shape({MEMBER(spectrum::TotalParams, inverse_length), MEMBER(spectrum::TotalParams, segments),
+                  MEMBER(spectrum::TotalParams, write_magnitudes), MEMBER(spectrum::TotalParams, window)},
+                 offsetof(spectrum::TotalParams, shape)));
 }
 
 }  // namespace

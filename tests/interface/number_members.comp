@@ -6,6 +6,7 @@
 #include "interface/adjacency.h"
 #include "interface/planar_groups.h"
 #include "interface/cooccurrence.h"
+#include "interface/spectrum.h"
 layout(local_size_x = 1) in;
 layout(binding = 0, scalar) writeonly buffer A { MeshRecord mesh_records[2]; };
 layout(binding = 1, scalar) writeonly buffer B { Chunk chunks[2]; };
@@ -15,6 +16,10 @@ layout(binding = 4, scalar) writeonly buffer E { TopologyTotals topology_totals[
 layout(binding = 5, scalar) writeonly buffer F { PlanarTotals planar_totals[2]; };
 layout(binding = 6, scalar) writeonly buffer G { SortedRange sorted_ranges[2]; };
 layout(binding = 7, scalar) writeonly buffer H { ClassRange class_ranges[2]; };
+layout(binding = 8, scalar) writeonly buffer I { SpectrumPart spectrum_parts[2]; };
+layout(binding = 9, scalar) writeonly buffer J { ShortSignal short_signals[2]; };
+layout(binding = 10, scalar) writeonly buffer K { ChirpSignal chirp_signals[2]; };
+layout(binding = 11, scalar) writeonly buffer L { Segment segments[2]; };
 
 void main() {
   for (uint i = 0; i < 2; ++i) {
@@ -43,5 +48,9 @@ void main() {
     planar_totals[i] = PlanarTotals(double(n + 1), n + 2, n + 3);
     sorted_ranges[i] = SortedRange(n + 1, n + 2, n + 3);
     class_ranges[i] = ClassRange(double(n + 1), double(n + 2), n + 3, n + 4);
+    spectrum_parts[i] = SpectrumPart(double(n + 1), double(n + 2), double(n + 3), double(n + 4));
+    short_signals[i] = ShortSignal(n + 1, n + 2, n + 3, n + 4);
+    chirp_signals[i] = ChirpSignal(double(n + 1), n + 2, n + 3, n + 4, n + 5, n + 6, n + 7);
+    segments[i] = Segment(n + 1, n + 2, n + 3);
   }
 }

@@ -59,7 +59,11 @@ inline Found transformed(SpectrumBuilder& builder, const std::vector<Samples>& s
   return found;
 }
 
-// Magnitudes within 1e-9 of the largest; totals within 1e-9 of their size, where they are more than rounding.
+// What is asked for is 1e-9; what is found with sound tables is some 1e-14.
+inline constexpr double kTolerance = 1e-12;
+
+// Magnitudes relative to the largest, and but for FFTW's own rounding to the largest but |X_0|; totals
+// relative to their size, where they are more than rounding.
 inline void expect_spectrum(const SpectrumTotals& totals, const std::vector<double>& magnitudes,
                             const reference::Spectrum& expected) {
   ASSERT_EQ(magnitudes.size(), expected.magnitudes.size());
@@ -67,13 +71,13 @@ inline void expect_spectrum(const SpectrumTotals& totals, const std::vector<doub
   double worst = 0;
   for (std::size_t k = 0; k < magnitudes.size(); ++k)
     worst = std::max(worst, std::abs(magnitudes[k] - expected.magnitudes[k]));
-  EXPECT_LE(worst, 1e-9 * largest);
+  EXPECT_LE(worst, kTolerance * expected.largest + 1e-15 * largest);
   const double rounding = 1e-13 * largest * static_cast<double>(magnitudes.size());
-  EXPECT_NEAR(totals.zero, expected.zero, 1e-9 * expected.zero + 1e-13 * largest);
-  EXPECT_NEAR(totals.largest, expected.largest, 1e-9 * expected.largest + 1e-13 * largest);
-  EXPECT_NEAR(totals.sum, expected.sum, 1e-9 * expected.sum + rounding);
+  EXPECT_NEAR(totals.zero, expected.zero, kTolerance * expected.zero + 1e-13 * largest);
+  EXPECT_NEAR(totals.largest, expected.largest, kTolerance * expected.largest + 1e-13 * largest);
+  EXPECT_NEAR(totals.sum, expected.sum, kTolerance * expected.sum + rounding);
   EXPECT_NEAR(totals.weighted_sum, expected.weighted_sum,
-              1e-9 * expected.weighted_sum + rounding * static_cast<double>(magnitudes.size()));
+              kTolerance * expected.weighted_sum + rounding * static_cast<double>(magnitudes.size()));
 }
 
 inline bool operator==(const SpectrumTotals& a, const SpectrumTotals& b) {

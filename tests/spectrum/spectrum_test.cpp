@@ -67,6 +67,13 @@ TEST_F(SpectrumTest, NastyLengths) {
   expect_like_fftw(builder(), lengths);
 }
 
+// Where k^2 is a multiple of the chirp's period and the quotient in double precision comes out below it. One
+// signal at a time: a wrong index would otherwise meet another chirp's table.
+TEST_F(SpectrumTest, SquaresThatAreMultiplesOfThePeriod) {
+  for (const std::uint64_t length : {1568U, 3136U, 6272U, 6592U, 6848U, 7168U, 12544U})
+    expect_like_fftw(builder(), {length});
+}
+
 // More than one batch, lengths that share chirps, in an order that is none.
 TEST_F(SpectrumTest, ManySignalsOfMixedLengths) {
   test_meshes::Random random(5);

@@ -2,14 +2,14 @@
 #ifndef SCENE_ANALYZER_SPECTRUM_CHIRP
 #define SCENE_ANALYZER_SPECTRUM_CHIRP
 
-// k^2 mod 2 size, for k and size up to 2^24. k^2 is exact in a double and the quotient at most one off, so that the
-// remainder fits 32 bits although square and product wrap around.
+// k^2 mod 2 size, for k and size up to 2^24. k^2 is exact in a double. The quotient is never too high, since k^2 / 2 size is an integer or
+// further from the next one than rounding reaches, and one too low at most, where it is an integer. So the remainder fits 32 bits, although square and
+// product wrap around.
 uint square_modulo_period(uint k, ChirpSignal signal) {
   uint period = 2 * signal.size;
   uint quotient = uint(double(k) * double(k) * signal.inverse_period);
-  int remainder = int(k * k - quotient * period);
-  remainder += remainder < 0 ? int(period) : 0;
-  return uint(remainder) - (uint(remainder) >= period ? period : 0);
+  uint remainder = k * k - quotient * period;
+  return remainder >= period ? remainder - period : remainder;
 }
 
 // exp(-pi i j / size), j in [0, 2 size).
