@@ -2,7 +2,7 @@
 //
 // Made for powers of two that one workgroup holds in its shared memory, in double precision and the forward
 // direction only; what is longer, of another length or backwards is built around these (row_transform.h,
-// chirp_transform.h). Making a plan means generating GLSL and compiling it: some 60 ms, or 6 ms when the
+// chirp_transform.h). Making a plan means generating GLSL and compiling it: some 100 ms, or 6 ms when the
 // SPIR-V lies in the device's cache folder, and the driver's own compilation at the first use.
 #pragma once
 

@@ -98,7 +98,7 @@ struct FftPlan::Impl {
         queue(*native.queue),
         command_pool(*native.command_pool),
         fence(*native.fence),
-        buffer_bytes(rows * row_length * kComplexBytes) {
+        buffer_bytes(kComplexBytes * rows * row_length) {
     try {
       initialize_from_cache();
     } catch (...) {
