@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <string>
 
 #include "surface_distances/contraction.h"
 #include "surface_distances/patch_bounds.h"
@@ -26,9 +28,11 @@ std::vector<test_meshes::TestMesh> meshes() {
           test_meshes::shuffled(test_meshes::torus(30, 24), 3)};
 }
 
-std::vector<double> all_totals(const TwinSurface& twin) {
-  std::vector<double> totals;
-  for (std::uint32_t t = 0; t < twin.arcs.from.size(); ++t)
+// By brute force, once per mesh.
+const std::vector<double>& all_totals(const TwinSurface& twin, const std::string& name) {
+  static auto& known = *new std::map<std::string, std::vector<double>>;
+  std::vector<double>& totals = known[name];
+  for (auto t = static_cast<std::uint32_t>(totals.size()); t < twin.arcs.from.size(); ++t)
     totals.push_back(reference::total_distance(twin.arcs, t));
   return totals;
 }
@@ -39,65 +43,137 @@ TEST(Contraction, NeverShortensAndKeepsTheMass) {
     const DualGraph graph = graph_of(twin);
     std::vector<double> distances(graph.nodes());
     ShortestPaths(graph).run(0, distances);
-    std::vector<std::uint32_t> row;
-    const LaneGraph rows = order_by_distance(graph, distances, row);
-    std::vector<std::uint32_t> near(graph.nodes());
-    std::ranges::copy(numbers_up_to(graph.nodes()), near.begin());
+    std::vector<std::uint32_t> near = numbers_up_to(graph.nodes());
     std::ranges::sort(near, {}, [&](std::uint32_t v) { return distances[v]; });
-    std::vector<std::uint32_t> sources, kept;
-    for (std::size_t i = 0; i < 16; ++i) sources.push_back(row[near[3 * i]]);
-    for (std::size_t i = 0; i < 60; ++i) kept.push_back(row[near[i]]);
-    LaneSearch search;
+    const double extent = distances[near.back()], unit = 4 * extent / kUnreached<Units>;
+    std::vector<std::uint32_t> row, sources;
+    const auto rows = order_by_distance<Units>(graph, {distances, distances[near[60]]}, unit, row);
+    for (std::size_t i = 0; i < kLanes; ++i) sources.push_back(row[near[3 * i]]);
+    LaneSearch<Units> search;
     search.run(rows, sources, 0);
-    for (const double tolerance : {0.0, 0.05 * distances[near.back()]}) {
-      const Contraction smaller = contract(
-          rows, search.distances(),
-          {.kept_rows = kept, .centre_lane = 0, .kept_radius = distances[near[60]], .tolerance = tolerance});
-      double mass = 0;
-      for (const double m : smaller.graph.mass) mass += m;
+    const auto totals = search.totals(rows);
+    for (const double share : {0.0, 0.002, 0.05}) {
+      const auto tolerance = static_cast<Units>(share * extent / unit);
+      const Contraction smaller = contract(rows, search.distances(), sources, tolerance);
+      std::uint64_t mass = 0;
+      for (const std::uint32_t m : smaller.graph.mass) mass += m;
       EXPECT_EQ(mass, graph.triangles) << mesh.name;
       EXPECT_LE(smaller.graph.rows(), rows.rows()) << mesh.name;
       std::vector<std::uint32_t> again;
-      for (const std::uint32_t source : sources) again.push_back(smaller.row[source]);
-      LaneSearch bounded;
-      bounded.run(smaller.graph, again, 0);
-      const auto bounds = bounded.totals(smaller.graph), totals = search.totals(rows);
-      for (std::size_t lane = 0; lane < 16; ++lane) {
-        EXPECT_GE(bounds[lane], totals[lane] * (1 - 1e-12)) << mesh.name;
-        if (tolerance == 0) {
-          EXPECT_LE(bounds[lane], totals[lane] * (1 + 1e-9)) << mesh.name;
-        }
+      for (const std::uint32_t source : sources) {
+        EXPECT_EQ(smaller.roots[smaller.row[source]], source) << "kept";
+        again.push_back(smaller.row[source]);
+      }
+      LaneSearch<Units> bounded;
+      bounded.run(smaller.graph, again, smaller.graph.rows());
+      const auto bounds = bounded.totals(smaller.graph);
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        EXPECT_GE(bounds[lane], totals[lane]) << mesh.name;
+        EXPECT_LE(bounds[lane], totals[lane] * (1 + 20 * share)) << mesh.name << ", share " << share;
       }
     }
   }
 }
 
-TEST(PatchBounds, AreNeverBelowTheTruth) {
-  for (const auto& mesh : meshes()) {
-    const TwinSurface twin(mesh);
-    const DualGraph graph = graph_of(twin);
-    const std::vector<double> truth = all_totals(twin);
-    Candidates candidates(graph.triangles);
-    std::vector<double> distances(graph.nodes());
-    ShortestPaths paths(graph);
-    for (std::uint32_t source = 0; source < kLandmarks; ++source) {
-      paths.run(source * graph.triangles / kLandmarks, distances);
-      candidates.set_total(source * graph.triangles / kLandmarks, total_distance(graph, distances));
-      candidates.bound_all(total_distance(graph, distances), distances);
+TEST(Patches, TakeEveryOpenTriangleOnceAndStayWithinReach) {
+  Candidates candidates(500);
+  test_meshes::Random random(4);
+  std::vector<double> distances(500);
+  for (std::size_t source = 0; source < kLandmarks; ++source) {
+    for (double& distance : distances) distance = random.unit();
+    candidates.bound_all(500, distances);
+  }
+  std::vector<std::uint32_t> open = candidates.open(), seen;
+  ASSERT_EQ(open.size(), 500U);
+  while (!open.empty()) {
+    const std::size_t before = open.size();
+    const auto patches = take_patches(open, candidates, {.least = 3, .most = 40, .reach = 0.6}, 4);
+    EXPECT_FALSE(patches.empty());
+    EXPECT_LE(patches.size(), 4U);
+    std::size_t taken = 0;
+    for (const Patch& patch : patches) {
+      taken += patch.size();
+      EXPECT_LE(patch.size(), 40U);
+      for (std::size_t i = 3; i < patch.size(); ++i)
+        EXPECT_LE(candidates.about_distance(patch[0], patch[i]), 0.6F);
+      seen.insert(seen.end(), patch.begin(), patch.end());
     }
-    std::vector<std::uint32_t> patch;
-    for (const std::uint32_t v : candidates.open()) patch.push_back(v);
-    for (const std::size_t size : {std::size_t{7}, std::size_t{100}, patch.size()}) {
-      const std::vector<std::uint32_t> part(
-          patch.begin(), patch.begin() + static_cast<std::ptrdiff_t>(std::min(size, patch.size())));
-      if (part.empty()) continue;
-      const PatchResult result = PatchBounder(graph).bound(part, candidates);
-      EXPECT_EQ(result.totals.size() + result.bounds.size(), part.size()) << mesh.name;
-      for (const auto& [v, total] : result.totals)
-        EXPECT_NEAR(total, truth[v], 1e-12 * truth[v]) << mesh.name;
-      for (const auto& [v, bound] : result.bounds) EXPECT_GE(bound, truth[v] * (1 - 1e-12)) << mesh.name;
+    EXPECT_EQ(open.size() + taken, before);
+  }
+  std::ranges::sort(seen);
+  EXPECT_EQ(seen, numbers_up_to(500));
+}
+
+class PatchBounds : public testing::Test {
+ protected:
+  // Every mesh with its true totals and what 16 searches prove.
+  template <typename Visit>
+  static void for_each_case(Visit visit) {
+    for (const auto& mesh : meshes()) {
+      SCOPED_TRACE(mesh.name);
+      const TwinSurface twin(mesh);
+      const DualGraph graph = graph_of(twin);
+      Candidates candidates(graph.triangles);
+      std::vector<double> distances(graph.nodes());
+      ShortestPaths paths(graph);
+      for (std::uint32_t i = 0; i < kLandmarks; ++i) {
+        const std::uint32_t source = i * (graph.triangles / kLandmarks);
+        paths.run(source, distances);
+        candidates.set_total(source, total_distance(graph, distances));
+        candidates.bound_all(total_distance(graph, distances), distances);
+      }
+      const double unit = 4 * *std::ranges::max_element(distances) / kUnreached<Units>;
+      const std::vector<double>& truth = all_totals(twin, mesh.name);
+      PatchBounder bounder(graph, unit);
+      for (const std::size_t size :
+           {std::size_t{5}, std::size_t{16}, std::size_t{300}, std::size_t{1} << 20}) {
+        Patch patch = candidates.open();
+        patch.resize(std::min(size, patch.size()));
+        if (!patch.empty()) visit(bounder, patch, candidates, truth);
+      }
     }
   }
+
+  static void expect_true(const PatchResult& result, const Patch& patch, const std::vector<double>& truth) {
+    for (const auto& [v, total] : result.totals) EXPECT_NEAR(total, truth[v], 1e-12 * truth[v]);
+    for (const auto& [v, bound] : result.bounds) EXPECT_GE(bound, truth[v] * (1 - 1e-12));
+    std::vector<std::uint32_t> bounded;
+    for (const auto& [v, bound] : result.bounds) bounded.push_back(v);
+    std::ranges::sort(bounded);
+    std::vector<std::uint32_t> expected = patch;
+    std::ranges::sort(expected);
+    EXPECT_EQ(bounded, expected) << "each once";
+  }
+};
+
+TEST_F(PatchBounds, AreNeverBelowTheTruth) {
+  for_each_case([](PatchBounder& bounder, const Patch& patch, const Candidates& candidates,
+                   const std::vector<double>& truth) {
+    for (const double share : {0.0, 0.2, 1.0}) {
+      const PatchResult result = bounder.bound(patch, candidates, share);
+      if (result.too_wide)
+        EXPECT_TRUE(result.totals.empty() && result.bounds.empty());
+      else
+        expect_true(result, patch, truth);
+    }
+  });
+}
+
+TEST_F(PatchBounds, OfASampleAreNeverBelowTheTruthEither) {
+  for_each_case([](PatchBounder& bounder, const Patch& patch, const Candidates& candidates,
+                   const std::vector<double>& truth) {
+    const PatchResult result = bounder.sample(patch, candidates);
+    if (!result.too_wide) expect_true(result, patch, truth);
+  });
+}
+
+TEST_F(PatchBounds, MeasuredTotalsAreTrue) {
+  for_each_case([](PatchBounder& bounder, Patch patch, const Candidates&, const std::vector<double>& truth) {
+    patch.resize(std::min(patch.size(), kLanes));
+    const PatchResult result = bounder.measure(patch);
+    ASSERT_EQ(result.totals.size(), patch.size());
+    for (const auto& [v, total] : result.totals) EXPECT_NEAR(total, truth[v], 1e-12 * truth[v]);
+  });
 }
 
 StartTriangle start_of(const TwinSurface& twin, const StartSearchOptions& options = {}) {
@@ -129,7 +205,7 @@ TEST(StartTriangle, DoesNotDependOnTheNumberOfThreads) {
 TEST(StartTriangle, EndsEarlyWithAGapThatHolds) {
   for (const auto& mesh : meshes()) {
     const TwinSurface twin(mesh);
-    const std::vector<double> truth = all_totals(twin);
+    const std::vector<double>& truth = all_totals(twin, mesh.name);
     const double highest = *std::ranges::max_element(truth);
     for (const std::uint64_t most : {1U, 3U, 20U, 60U}) {
       const StartTriangle start = start_of(twin, {.most_searches = most});

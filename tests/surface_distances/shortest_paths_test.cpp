@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "surface_distances/lane_search.h"
 #include "surface_distances/surfaces.h"
 
 namespace scene_analyzer::surface_distances {
@@ -22,15 +21,7 @@ DualGraph random_graph(std::uint32_t nodes, std::uint32_t extra, std::uint64_t s
   for (std::uint32_t v = 1; v < nodes; ++v) connect(v - 1, v);
   for (std::uint32_t i = 0; i < extra; ++i)
     connect(static_cast<std::uint32_t>(random.below(nodes)), static_cast<std::uint32_t>(random.below(nodes)));
-  DualGraph graph{.triangles = nodes, .first = {0}, .target = {}, .length = {}};
-  for (const auto& from : arcs.from) {
-    for (const auto& arc : from) {
-      graph.target.push_back(arc.target);
-      graph.length.push_back(arc.length);
-    }
-    graph.first.push_back(static_cast<std::uint32_t>(graph.target.size()));
-  }
-  return graph;
+  return graph_of(arcs);
 }
 
 reference::SurfaceArcs arcs_of(const DualGraph& graph) {
@@ -85,47 +76,20 @@ TEST(ShortestPaths, GiveUpBucketsThatVisitNodesTooOften) {
     connect(2 * i + 1, 2 * i + 2, step / 2);
   }
   connect(0, 2 * kSteps, 1e6);
-  DualGraph graph{.triangles = 2 * kSteps + 1, .first = {0}, .target = {}, .length = {}};
-  for (const auto& from : arcs.from) {
-    for (const auto& arc : from) {
-      graph.target.push_back(arc.target);
-      graph.length.push_back(arc.length);
-    }
-    graph.first.push_back(static_cast<std::uint32_t>(graph.target.size()));
-  }
+  const DualGraph graph = graph_of(arcs);
   expect_dijkstra(graph, "ladder");
+  ShortestPaths paths(graph);
+  std::vector<double> distances(graph.nodes());
+  paths.run(0, distances);
+  EXPECT_TRUE(paths.uses_heap());
 }
 
-TEST(LaneSearch, IsBitIdenticalToDijkstraInEveryLane) {
-  for (const auto& mesh :
-       {test_meshes::geosphere(9), test_meshes::torus(31, 17), test_meshes::heightfield(20, 1, 4),
-        test_meshes::shuffled(test_meshes::prism(20, 12, 1, 3), 5)}) {
-    const TwinSurface twin(mesh);
-    const DualGraph graph = graph_of(twin);
-    std::vector<double> distances(graph.nodes());
-    ShortestPaths(graph).run(5, distances);
-    std::vector<std::uint32_t> row;
-    const LaneGraph rows = order_by_distance(graph, distances, row);
-    LaneSearch search;
-    test_meshes::Random random(7);
-    for (const std::size_t sources : {1U, 2U, 15U, 16U}) {
-      std::vector<std::uint32_t> nodes, source_rows;
-      for (std::size_t i = 0; i < sources; ++i) {
-        nodes.push_back(static_cast<std::uint32_t>(random.below(graph.nodes())));
-        source_rows.push_back(row[nodes.back()]);
-      }
-      for (const std::uint32_t near : {0U, 100U, graph.nodes()}) {
-        search.run(rows, source_rows, near);
-        const auto totals = search.totals(rows);
-        for (std::size_t lane = 0; lane < sources; ++lane) {
-          const auto expected = reference::surface_distances(twin.arcs, nodes[lane]);
-          for (std::uint32_t v = 0; v < graph.nodes(); ++v)
-            ASSERT_EQ(search.distances()[row[v]].of[lane], expected[v]) << mesh.name << ", near " << near;
-          EXPECT_NEAR(totals[lane], reference::total_distance(twin.arcs, nodes[lane]), 1e-12 * totals[lane]);
-        }
-      }
-    }
-  }
+TEST(ShortestPaths, ChangeToTheHeapOnlyThen) {
+  const DualGraph graph = random_graph(5000, 5000, 1, [](auto& random) { return random.unit(); });
+  ShortestPaths paths(graph);
+  std::vector<double> distances(graph.nodes());
+  paths.run(0, distances);
+  EXPECT_FALSE(paths.uses_heap());
 }
 
 }  // namespace

@@ -23,20 +23,22 @@ struct TwinSurface {
                                      stages.adjacency)) {}
 };
 
-// The twin's arcs as one graph, nodes in the order of the file; for meshes of one component.
-inline DualGraph graph_of(const TwinSurface& twin) {
-  DualGraph graph{.triangles = static_cast<std::uint32_t>(twin.arcs.from.size()),
-                  .first = {0},
-                  .target = {},
-                  .length = {}};
-  for (const auto& arcs : twin.arcs.from) {
-    for (const auto& arc : arcs) {
+// Nodes in the order of `arcs`, all of them triangles.
+inline DualGraph graph_of(const reference::SurfaceArcs& arcs) {
+  DualGraph graph{
+      .triangles = static_cast<std::uint32_t>(arcs.from.size()), .first = {0}, .target = {}, .length = {}};
+  for (const auto& from : arcs.from) {
+    for (const auto& arc : from) {
       graph.target.push_back(arc.target);
       graph.length.push_back(arc.length);
     }
     graph.first.push_back(static_cast<std::uint32_t>(graph.target.size()));
   }
   return graph;
+}
+// Nodes in the order of the file; for meshes of one component.
+inline DualGraph graph_of(const TwinSurface& twin) {
+  return graph_of(twin.arcs);
 }
 
 inline std::vector<std::uint32_t> numbers_up_to(std::uint32_t count) {

@@ -66,10 +66,14 @@ class Candidates {
     ++landmark_count_;
   }
 
+  // Distance to the nearest source, of triangles that are none.
+  float nearest(std::uint32_t v) const { return nearest_[v]; }
   // Not searched, and farthest from all that are.
   std::uint32_t farthest() const {
     return static_cast<std::uint32_t>(std::ranges::max_element(nearest_) - nearest_.begin());
   }
+  // Distance to the first source.
+  float landmark_distance(std::uint32_t v) const { return landmarks_[v][0]; }
   // About the distance of two triangles, never more: the largest difference of their distances to landmarks.
   float about_distance(std::uint32_t a, std::uint32_t b) const {
     float most = 0;

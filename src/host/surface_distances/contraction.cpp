@@ -1,90 +1,109 @@
 #include "surface_distances/contraction.h"
 
 #include <algorithm>
-#include <limits>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define WIDEST_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WIDEST_VECTORS
-#endif
+#include "interface/mesh.h"
 
 namespace scene_analyzer::surface_distances {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-// Sums along different paths of the same length differ by rounding.
-constexpr double kRounding = 1e-13;
+using interface::mesh::kNone;
 
 struct Forest {
-  std::vector<std::uint32_t> parent;  // kNone: a root
-  std::vector<double> offset;         // from the parent, later from the root
+  std::vector<std::uint32_t> root;  // per row: itself where it is one
+  std::vector<Units> offset;        // distance from the root
+  bool is_root(std::uint32_t row) const { return root[row] == row; }
 };
 
 // How much longer the way through x is than the shortest to y, over all sources.
-inline double detour(const Lanes& x, double length, const Lanes& y) {
-  std::array<double, kLanes> excess;
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    excess[lane] = x.of[lane] + length - y.of[lane] * (1 + kRounding);
-  double most = excess[0];
-  for (std::size_t lane = 1; lane < kLanes; ++lane) most = excess[lane] > most ? excess[lane] : most;
+inline Units detour(const Lanes<Units>& x, Units length, const Lanes<Units>& y) {
+  Units most = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const Units longer = x.of[lane] + length - y.of[lane];
+    most = most < longer ? longer : most;
+  }
   return most;
 }
 
-WIDEST_VECTORS void choose_parents(const LaneGraph& graph, std::span<const Lanes> distances,
-                                   const ContractionRules& rules, std::vector<std::uint8_t>& fixed,
-                                   Forest& forest) {
-  std::vector<double> least(graph.rows(), std::numeric_limits<double>::infinity());
-  const std::size_t centre = rules.centre_lane;
+// Rows join the tree of a row before them, so that there are no cycles.
+WIDEST_VECTORS void grow(const LaneGraph<Units>& graph, const Lanes<Units>* distances, Units tolerance,
+                         const std::uint8_t* kept, Units* least, Forest& forest) {
   for (std::uint32_t x = 0; x < graph.rows(); ++x) {
+    const std::uint32_t root = forest.root[x];
     for (std::uint32_t arc = graph.first[x]; arc < graph.first[x + 1]; ++arc) {
       const std::uint32_t y = graph.target[arc];
-      // Parents are nearer to the centre, so that there are no cycles.
-      if (fixed[y] != 0 || !(distances[x].of[centre] < distances[y].of[centre])) continue;
-      const double longer = detour(distances[x], graph.length[arc], distances[y]);
-      if (longer > rules.tolerance || longer >= least[y]) continue;
+      if (y <= x || kept[y] != 0 || least[y] == 0) continue;
+      const Units offset = forest.offset[x] + graph.length[arc];
+      if (offset >= kUnreached<Units>) continue;
+      const Units longer = detour(distances[root], offset, distances[y]);
+      // No longer than the way from the root: then the root is nearer to all sources than what it stands for,
+      // and no shortest path to a root leads through its own tree.
+      if (longer > std::min(tolerance, offset) || longer >= least[y]) continue;
       least[y] = longer;
-      forest.parent[y] = x;
-      forest.offset[y] = graph.length[arc];
+      forest.root[y] = root;
+      forest.offset[y] = offset;
     }
   }
 }
 
-// Parents become roots and offsets those from the roots.
-void flatten(Forest& forest, std::vector<std::uint8_t>& done) {
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t start = 0; start < forest.parent.size(); ++start) {
-    std::uint32_t row = start;
-    for (; done[row] == 0 && forest.parent[row] != kNone; row = forest.parent[row]) path.push_back(row);
-    while (!path.empty()) {
-      const std::uint32_t child = path.back();
-      path.pop_back();
-      const std::uint32_t parent = forest.parent[child];
-      const bool below_root = forest.parent[parent] == kNone;
-      forest.offset[child] += below_root ? 0 : forest.offset[parent];
-      forest.parent[child] = below_root ? parent : forest.parent[parent];
-      done[child] = 1;
+Forest grow_forest(const LaneGraph<Units>& graph, std::span<const Lanes<Units>> distances,
+                   std::span<const std::uint32_t> kept_rows, Units tolerance) {
+  Forest forest{.root = {}, .offset = std::vector<Units>(graph.rows(), 0)};
+  for (std::uint32_t row = 0; row < graph.rows(); ++row) forest.root.push_back(row);
+  std::vector<std::uint8_t> kept(graph.rows(), 0);
+  for (const std::uint32_t row : kept_rows) kept[row] = 1;
+  std::vector<Units> least(graph.rows(), kUnreached<Units>);
+  grow(graph, distances.data(), tolerance, kept.data(), least.data(), forest);
+  return forest;
+}
+
+// Numbers the roots and adds up what they stand for.
+void gather_rows(const LaneGraph<Units>& graph, const Forest& forest, Contraction& result) {
+  result.row.resize(graph.rows());
+  result.graph.constant = graph.constant;
+  for (std::uint32_t row = 0; row < graph.rows(); ++row) {
+    if (forest.is_root(row)) {
+      result.row[row] = static_cast<std::uint32_t>(result.roots.size());
+      result.roots.push_back(row);
+      result.graph.mass.push_back(graph.mass[row]);
+      continue;
     }
+    result.row[row] = result.row[forest.root[row]];
+    result.graph.mass[result.row[row]] += graph.mass[row];
+    result.graph.constant += std::uint64_t{graph.mass[row]} * forest.offset[row];
   }
 }
 
 // Arcs between different trees that end at a root; what ends further up is never shorter.
 template <typename Visit>
-void for_each_arc(const LaneGraph& graph, const Forest& forest, const std::vector<std::uint32_t>& row_of,
+void for_each_arc(const LaneGraph<Units>& graph, const Forest& forest, const std::vector<std::uint32_t>& row,
                   Visit visit) {
   for (std::uint32_t x = 0; x < graph.rows(); ++x) {
-    const std::uint32_t from = row_of[x];
-    const double offset = forest.parent[x] == kNone ? 0 : forest.offset[x];
     for (std::uint32_t arc = graph.first[x]; arc < graph.first[x + 1]; ++arc) {
       const std::uint32_t y = graph.target[arc];
-      if (forest.parent[y] != kNone || row_of[y] == from) continue;
-      visit(from, row_of[y], offset + graph.length[arc]);
+      if (!forest.is_root(y) || row[y] == row[x]) continue;
+      visit(row[x], row[y], std::min(forest.offset[x] + graph.length[arc], kUnreached<Units>));
     }
   }
 }
 
+void gather_arcs(const LaneGraph<Units>& graph, const Forest& forest, Contraction& result) {
+  LaneGraph<Units>& smaller = result.graph;
+  smaller.first.assign(smaller.rows() + 1, 0);
+  for_each_arc(graph, forest, result.row,
+               [&](std::uint32_t from, std::uint32_t, Units) { ++smaller.first[from + 1]; });
+  for (std::size_t row = 0; row < smaller.rows(); ++row) smaller.first[row + 1] += smaller.first[row];
+  smaller.target.resize(smaller.first.back());
+  smaller.length.resize(smaller.first.back());
+  std::vector<std::uint32_t> next(smaller.first.begin(), smaller.first.end() - 1);
+  for_each_arc(graph, forest, result.row, [&](std::uint32_t from, std::uint32_t to, Units length) {
+    smaller.target[next[from]] = to;
+    smaller.length[next[from]++] = length;
+  });
+}
+
 // Of several arcs between the same rows only the shortest stays.
-void merge_parallel_arcs(LaneGraph& graph) {
+void merge_parallel_arcs(LaneGraph<Units>& graph) {
   std::vector<std::uint32_t> last(graph.rows(), kNone);  // place of the arc to that row
   std::uint32_t end = 0;
   for (std::uint32_t row = 0; row < graph.rows(); ++row) {
@@ -110,46 +129,13 @@ void merge_parallel_arcs(LaneGraph& graph) {
 
 }  // namespace
 
-Contraction contract(const LaneGraph& graph, std::span<const Lanes> distances,
-                     const ContractionRules& rules) {
-  std::vector<std::uint8_t> marks(graph.rows(), 0);
-  for (std::uint32_t row = 0; row < graph.rows(); ++row)
-    marks[row] = distances[row].of[rules.centre_lane] <= rules.kept_radius ? 1 : 0;
-  for (const std::uint32_t row : rules.kept_rows) marks[row] = 1;
-  Forest forest{.parent = std::vector(graph.rows(), kNone), .offset = std::vector(graph.rows(), 0.0)};
-  choose_parents(graph, distances, rules, marks, forest);
-  std::ranges::fill(marks, std::uint8_t{0});
-  flatten(forest, marks);
-
+Contraction contract(const LaneGraph<Units>& graph, std::span<const Lanes<Units>> distances,
+                     std::span<const std::uint32_t> kept, Units tolerance) {
+  const Forest forest = grow_forest(graph, distances, kept, tolerance);
   Contraction result;
-  result.row.resize(graph.rows());
-  for (std::uint32_t row = 0; row < graph.rows(); ++row) {
-    if (forest.parent[row] != kNone) continue;
-    result.row[row] = static_cast<std::uint32_t>(result.roots.size());
-    result.roots.push_back(row);
-  }
-  LaneGraph& smaller = result.graph;
-  smaller.mass.assign(result.roots.size(), 0);
-  double offsets = 0;
-  for (std::uint32_t row = 0; row < graph.rows(); ++row) {
-    const bool root = forest.parent[row] == kNone;
-    if (!root) result.row[row] = result.row[forest.parent[row]];
-    smaller.mass[result.row[row]] += graph.mass[row];
-    offsets += root ? 0 : graph.mass[row] * forest.offset[row];
-  }
-  smaller.constant = graph.constant + offsets;
-  smaller.first.assign(result.roots.size() + 1, 0);
-  for_each_arc(graph, forest, result.row,
-               [&](std::uint32_t from, std::uint32_t, double) { ++smaller.first[from + 1]; });
-  for (std::size_t row = 0; row < result.roots.size(); ++row) smaller.first[row + 1] += smaller.first[row];
-  smaller.target.resize(smaller.first.back());
-  smaller.length.resize(smaller.first.back());
-  std::vector<std::uint32_t> next(smaller.first.begin(), smaller.first.end() - 1);
-  for_each_arc(graph, forest, result.row, [&](std::uint32_t from, std::uint32_t to, double length) {
-    smaller.target[next[from]] = to;
-    smaller.length[next[from]++] = length;
-  });
-  merge_parallel_arcs(smaller);
+  gather_rows(graph, forest, result);
+  gather_arcs(graph, forest, result);
+  merge_parallel_arcs(result.graph);
   return result;
 }
 

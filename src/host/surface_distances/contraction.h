@@ -15,20 +15,16 @@
 
 namespace scene_analyzer::surface_distances {
 
-struct ContractionRules {
-  std::span<const std::uint32_t> kept_rows;  // rows that stay roots
-  std::size_t centre_lane = 0;
-  double kept_radius = 0;  // rows up to this distance from the source of `centre_lane` stay roots, too
-  double tolerance = 0;    // how much longer than shortest the way through a parent may be, per source
-};
-
 struct Contraction {
-  LaneGraph graph;                   // its rows in the order of the old ones
+  LaneGraph<Units> graph;            // its rows in the order of the old ones; without bands
   std::vector<std::uint32_t> row;    // per old row: its row in `graph`, or that of its root
   std::vector<std::uint32_t> roots;  // per new row: the old one
 };
 
-// `distances`: of a search on `graph`. Cost and scratch memory: linear.
-Contraction contract(const LaneGraph& graph, std::span<const Lanes> distances, const ContractionRules& rules);
+// `distances`: of a search on `graph`. `kept`: rows that stay roots. `tolerance`: how much longer than
+// shortest the way from a root to what it stands for may be, for any source; along a path that adds up. All
+// roots stay within reach of all sources. Cost and scratch memory: linear.
+Contraction contract(const LaneGraph<Units>& graph, std::span<const Lanes<Units>> distances,
+                     std::span<const std::uint32_t> kept, Units tolerance);
 
 }  // namespace scene_analyzer::surface_distances

@@ -2,148 +2,186 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
-#include <utility>
-
-// The widest vectors that the processor has, chosen when the program starts. Results do not depend on it:
-// there are only sums and comparisons, lane by lane.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define WIDEST_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WIDEST_VECTORS
-#endif
 
 namespace scene_analyzer::surface_distances {
 namespace {
 
 // Where more than one of so many rows are near, all are treated like those.
-constexpr std::uint32_t kNearParts = 4;
+constexpr std::uint32_t kNearParts = 2;
 // Steps per row and arc after which lanes are searched one by one: by then that would have been done.
-constexpr std::uint64_t kMostSteps = 5;
+constexpr std::uint64_t kMostSteps = 10;
 
-// target = min(target, source + length) in every lane; whether that changed anything.
-inline bool relax(const Lanes& source, double length, Lanes& target) {
-  Lanes lower;
-  long long changed = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const double through = source.of[lane] + length;
-    const double before = target.of[lane];
-    changed |= through < before ? 1 : 0;
-    lower.of[lane] = through < before ? through : before;
-  }
-  if (changed != 0) target = lower;
-  return changed != 0;
+// What a search works on, as plain arrays.
+template <typename Distance>
+struct Front {
+  const std::uint32_t* first;
+  const std::uint32_t* target;
+  const Distance* length;
+  Lanes<Distance>* distances;
+  std::uint64_t* waiting;
+  const std::uint32_t* band_of_word;
+};
+
+// All lanes as one value, which compilers split into what the processor has; left to loops, they do not.
+using Bits1024 [[gnu::vector_size(128), gnu::may_alias]] = std::uint64_t;
+using Bits512 [[gnu::vector_size(64), gnu::may_alias]] = std::uint64_t;
+using Bits256 [[gnu::vector_size(32)]] = std::uint64_t;
+using Bits128 [[gnu::vector_size(16)]] = std::uint64_t;
+
+template <typename Distance>
+struct Vector;
+template <>
+struct Vector<double> {
+  using Type [[gnu::vector_size(128), gnu::may_alias]] = double;
+  using Bits = Bits1024;
+};
+template <>
+struct Vector<Units> {
+  using Type [[gnu::vector_size(64), gnu::may_alias]] = Units;
+  using Bits = Bits512;
+};
+
+template <typename Whole, typename Half>
+inline void fold(const Whole& bits, Half& half) {
+  std::array<Half, 2> halves;
+  std::memcpy(halves.data(), &bits, sizeof(Whole));
+  half = halves[0] | halves[1];
+}
+inline bool any(const Bits512& bits) {
+  Bits256 half;
+  Bits128 quarter;
+  fold(bits, half);
+  fold(half, quarter);
+  return (quarter[0] | quarter[1]) != 0;
+}
+inline bool any(const Bits1024& bits) {
+  Bits512 half;
+  fold(bits, half);
+  return any(half);
 }
 
-// Always goes on at the lowest waiting row: an improvement behind is spread before anything ahead is built on
-// it. False after too many steps, with rows still waiting.
-WIDEST_VECTORS bool spread(const LaneGraph& graph, Lanes* distances, std::uint64_t* waiting,
-                           std::size_t words, std::uint64_t most_steps) {
+// target = min(target, source + length) in every lane; whether that changed anything.
+template <typename Distance>
+inline bool relax(const Lanes<Distance>& source, Distance length, Lanes<Distance>& target) {
+  using Type = typename Vector<Distance>::Type;
+  using Bits = typename Vector<Distance>::Bits;
+  Type& known = reinterpret_cast<Type&>(target);
+  const Type through = reinterpret_cast<const Type&>(source) + length;
+  const Type lower = through < known ? through : known;
+  if (!any(reinterpret_cast<const Bits&>(lower) ^ reinterpret_cast<const Bits&>(known))) return false;
+  known = lower;
+  return true;
+}
+
+// Looks at all waiting rows of [begin, end), in words of 64, once. Returns the steps made; `lowest` falls to
+// the lowest band that has to be looked at again.
+template <typename Distance>
+inline std::uint64_t sweep(const Front<Distance>& front, std::size_t begin, std::size_t end,
+                           std::size_t& lowest) {
   std::uint64_t steps = 0;
-  for (std::size_t word = 0; word < words;) {
-    if (waiting[word] == 0) {
-      ++word;
-      continue;
+  for (std::size_t word = begin; word < end; ++word) {
+    while (front.waiting[word] != 0) {
+      const auto row = static_cast<std::uint32_t>(64 * word) +
+                       static_cast<std::uint32_t>(std::countr_zero(front.waiting[word]));
+      front.waiting[word] &= front.waiting[word] - 1;
+      steps += 1 + front.first[row + 1] - front.first[row];
+      for (std::uint32_t arc = front.first[row]; arc < front.first[row + 1]; ++arc) {
+        const std::uint32_t target = front.target[arc];
+        if (!relax(front.distances[row], front.length[arc], front.distances[target])) continue;
+        front.waiting[target / 64] |= std::uint64_t{1} << target % 64;
+        lowest = std::min<std::size_t>(lowest, front.band_of_word[target / 64]);
+      }
     }
+  }
+  return steps;
+}
+
+// Sweeps over a band until none of its rows waits, then goes on with the next; improvements that lead back to
+// a band before it wait until the sweep is over, so that those of many lanes are spread together. False after
+// too many steps, with rows still waiting.
+template <typename Distance>
+inline bool spread_bands(const Front<Distance>& front, std::span<const std::uint32_t> bands,
+                         std::uint64_t most_steps) {
+  std::uint64_t steps = 0;
+  for (std::size_t band = 0; band + 1 < bands.size();) {
+    std::size_t lowest = band + 1;
+    steps += sweep(front, bands[band] / 64, bands[band + 1] / 64, lowest);
     if (steps > most_steps) return false;
-    const auto row =
-        static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(waiting[word]));
-    waiting[word] &= waiting[word] - 1;
-    steps += 1 + graph.first[row + 1] - graph.first[row];
-    for (std::uint32_t arc = graph.first[row]; arc < graph.first[row + 1]; ++arc) {
-      const std::uint32_t target = graph.target[arc];
-      if (!relax(distances[row], graph.length[arc], distances[target])) continue;
-      waiting[target / 64] |= std::uint64_t{1} << target % 64;
-      word = std::min<std::size_t>(word, target / 64);
-    }
+    band = lowest;
   }
   return true;
 }
 
-WIDEST_VECTORS void add_up(const LaneGraph& graph, const Lanes* distances,
-                           std::array<double, kLanes>& totals) {
+WIDEST_VECTORS bool spread(const Front<double>& front, std::span<const std::uint32_t> bands,
+                           std::uint64_t most_steps) {
+  return spread_bands(front, bands, most_steps);
+}
+WIDEST_VECTORS bool spread(const Front<Units>& front, std::span<const std::uint32_t> bands,
+                           std::uint64_t most_steps) {
+  return spread_bands(front, bands, most_steps);
+}
+
+struct TotalsAndMost {
+  std::array<double, kLanes> totals{};
+  std::array<double, kLanes> most{};  // largest distance
+};
+
+template <typename Distance>
+inline TotalsAndMost add_up_rows(const LaneGraph<Distance>& graph, const Lanes<Distance>* distances) {
   constexpr std::uint32_t kBlock = 1024;  // sums of sums, for precision
-  totals.fill(graph.constant);
+  std::array<SumOf<Distance>, kLanes> totals{};
+  std::array<Distance, kLanes> most{};
   for (std::uint32_t begin = 0; begin < graph.rows(); begin += kBlock) {
     const std::uint32_t end = std::min(graph.rows(), begin + kBlock);
-    std::array<double, kLanes> block{};
-    for (std::uint32_t row = begin; row < end; ++row)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        block[lane] += graph.mass[row] * distances[row].of[lane];
+    std::array<SumOf<Distance>, kLanes> block{};
+    for (std::uint32_t row = begin; row < end; ++row) {
+      const SumOf<Distance> mass = graph.mass[row];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const Distance distance = distances[row].of[lane];
+        block[lane] += mass * distance;
+        most[lane] = most[lane] < distance ? distance : most[lane];
+      }
+    }
     for (std::size_t lane = 0; lane < kLanes; ++lane) totals[lane] += block[lane];
   }
-}
-
-// Places by distance: sorted into as many equally wide classes as there are places, in the old order within a
-// class.
-std::vector<std::uint32_t> places_by_distance(std::span<const double> distances) {
-  const auto count = static_cast<std::uint32_t>(distances.size());
-  const double farthest = count == 0 ? 0 : *std::ranges::max_element(distances);
-  const double classes_per_length = farthest > 0 ? (count - 1) / farthest : 0;
-  const auto class_of = [&](double distance) {
-    return static_cast<std::uint32_t>(distance * classes_per_length);
-  };
-  std::vector<std::uint32_t> begin(count + 2, 0), place(count);
-  for (const double distance : distances) ++begin[class_of(distance) + 2];
-  for (std::uint32_t i = 2; i < count + 2; ++i) begin[i] += begin[i - 1];
-  for (std::uint32_t i = 0; i < count; ++i) place[i] = begin[class_of(distances[i]) + 1]++;
-  return place;
-}
-
-// Rows of any graph with first, target and length, moved to `place`.
-template <typename Graph>
-LaneGraph moved(const Graph& graph, std::span<const std::uint32_t> place) {
-  const auto rows = static_cast<std::uint32_t>(place.size());
-  LaneGraph result;
-  result.first.resize(rows + 1);
-  for (std::uint32_t i = 0; i < rows; ++i) result.first[place[i] + 1] = graph.first[i + 1] - graph.first[i];
-  for (std::uint32_t row = 0; row < rows; ++row) result.first[row + 1] += result.first[row];
-  result.target.resize(graph.target.size());
-  result.length.resize(graph.target.size());
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    std::uint32_t to = result.first[place[i]];
-    for (std::uint32_t arc = graph.first[i]; arc < graph.first[i + 1]; ++arc, ++to) {
-      result.target[to] = place[graph.target[arc]];
-      result.length[to] = graph.length[arc];
-    }
+  TotalsAndMost result;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    result.totals[lane] = static_cast<double>(totals[lane] + graph.constant);
+    result.most[lane] = most[lane];
   }
-  result.mass.resize(rows);
   return result;
+}
+
+WIDEST_VECTORS TotalsAndMost add_up(const LaneGraph<double>& graph, const Lanes<double>* distances) {
+  return add_up_rows(graph, distances);
+}
+WIDEST_VECTORS TotalsAndMost add_up(const LaneGraph<Units>& graph, const Lanes<Units>* distances) {
+  return add_up_rows(graph, distances);
 }
 
 }  // namespace
 
-LaneGraph order_by_distance(const DualGraph& graph, std::span<const double> distances,
-                            std::vector<std::uint32_t>& row_of_node) {
-  row_of_node = places_by_distance(distances);
-  LaneGraph result = moved(graph, row_of_node);
-  for (std::uint32_t node = 0; node < graph.nodes(); ++node)
-    result.mass[row_of_node[node]] = node < graph.triangles ? 1 : 0;
-  return result;
+template <typename Distance>
+void LaneSearch<Distance>::run(const LaneGraph<Distance>& graph, std::span<const std::uint32_t> sources,
+                               std::uint32_t near) {
+  if (!try_together(graph, sources, near)) search_apart(graph, sources, graph.rows());
 }
 
-LaneGraph order_by_distance(const LaneGraph& graph, std::span<const double> distances,
-                            std::vector<std::uint32_t>& new_row) {
-  new_row = places_by_distance(distances);
-  LaneGraph result = moved(graph, new_row);
-  for (std::uint32_t row = 0; row < graph.rows(); ++row) result.mass[new_row[row]] = graph.mass[row];
-  result.constant = graph.constant;
-  return result;
-}
-
-void LaneSearch::run(const LaneGraph& graph, std::span<const std::uint32_t> sources, std::uint32_t near) {
+template <typename Distance>
+bool LaneSearch<Distance>::try_together(const LaneGraph<Distance>& graph,
+                                        std::span<const std::uint32_t> sources, std::uint32_t near) {
   distances_.resize(graph.rows());
-  if (near <= graph.rows() / kNearParts && search_together(graph, sources, near)) return;
-  search_apart(graph, sources, graph.rows());
-}
-
-// False where the order of rows serves the lanes so badly that searches one by one are cheaper.
-bool LaneSearch::search_together(const LaneGraph& graph, std::span<const std::uint32_t> sources,
-                                 std::uint32_t near) {
-  Lanes unreached;
-  unreached.of.fill(std::numeric_limits<double>::infinity());
+  if (near > graph.rows() / kNearParts) return false;
+  Lanes<Distance> unreached;
+  unreached.of.fill(kUnreached<Distance>);
   std::ranges::fill(distances_, unreached);
   waiting_.assign((graph.rows() + 63) / 64, 0);
+  band_of_word_.resize(waiting_.size());
+  for (std::uint32_t band = 0; band + 1 < graph.bands.size(); ++band)
+    std::fill(band_of_word_.begin() + graph.bands[band] / 64,
+              band_of_word_.begin() + graph.bands[band + 1] / 64, band);
   const auto wait = [&](std::uint32_t row) { waiting_[row / 64] |= std::uint64_t{1} << row % 64; };
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const std::uint32_t row = sources[lane < sources.size() ? lane : 0];
@@ -154,13 +192,15 @@ bool LaneSearch::search_together(const LaneGraph& graph, std::span<const std::ui
     search_apart(graph, sources, near);
     for (std::uint32_t row = 0; row < near; ++row) wait(row);
   }
-  return spread(graph, distances_.data(), waiting_.data(), waiting_.size(),
-                kMostSteps * (graph.rows() + graph.target.size()));
+  return spread({graph.first.data(), graph.target.data(), graph.length.data(), distances_.data(),
+                 waiting_.data(), band_of_word_.data()},
+                graph.bands, kMostSteps * (graph.rows() + graph.target.size()));
 }
 
 // On the part of the graph that rows [0, rows) make.
-void LaneSearch::search_apart(const LaneGraph& graph, std::span<const std::uint32_t> sources,
-                              std::uint32_t rows) {
+template <typename Distance>
+void LaneSearch<Distance>::search_apart(const LaneGraph<Distance>& graph,
+                                        std::span<const std::uint32_t> sources, std::uint32_t rows) {
   paths_.use({graph.first, graph.target, graph.length}, rows);
   row_distances_.resize(rows);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -170,10 +210,15 @@ void LaneSearch::search_apart(const LaneGraph& graph, std::span<const std::uint3
   }
 }
 
-std::array<double, kLanes> LaneSearch::totals(const LaneGraph& graph) const {
-  std::array<double, kLanes> totals{};
-  add_up(graph, distances_.data(), totals);
-  return totals;
+template <typename Distance>
+std::array<double, kLanes> LaneSearch<Distance>::totals(const LaneGraph<Distance>& graph) const {
+  TotalsAndMost sums = add_up(graph, distances_.data());
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (sums.most[lane] >= kUnreached<Distance>) sums.totals[lane] = std::numeric_limits<double>::infinity();
+  return sums.totals;
 }
+
+template class LaneSearch<double>;
+template class LaneSearch<Units>;
 
 }  // namespace scene_analyzer::surface_distances

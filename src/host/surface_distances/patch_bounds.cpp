@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "surface_distances/contraction.h"
 
@@ -9,13 +10,15 @@ namespace scene_analyzer::surface_distances {
 namespace {
 
 // Rows up to so many times the members' distance from the middle are searched lane by lane.
-constexpr double kNearReach = 3;
+constexpr double kNearReach = 1.2;
 constexpr std::size_t kParts = 4;  // that a patch is split into
+// Fewer triangles are measured one by one.
+constexpr std::size_t kLeastTogether = 6;
+// Smaller patches are bounded however wide they are.
+constexpr std::size_t kLeastTooWide = 256;
 // Splits in a row, after which the rest is bounded as it is: patches that do not fall apart would go on for
 // ever.
 constexpr unsigned kMostSplits = 8;
-// Of the way from a patch's totals to the threshold, the part that contraction may use up.
-constexpr double kSlackShare = 0.1;
 
 std::uint32_t count_within(std::span<const double> distances, double reach) {
   return static_cast<std::uint32_t>(std::ranges::count_if(distances, [&](double d) { return d <= reach; }));
@@ -23,46 +26,90 @@ std::uint32_t count_within(std::span<const double> distances, double reach) {
 
 }  // namespace
 
-PatchResult PatchBounder::bound(const std::vector<std::uint32_t>& patch, const Candidates& candidates) {
+LaneGraph<Units> PatchBounder::begin(const Patch& patch, const Candidates& candidates,
+                                     std::vector<Member>& members, std::uint32_t& near) {
   candidates_ = &candidates;
   best_ = candidates.best();
+  result_ = {};
   paths_.run(patch.front(), distances_);
+  result_.work = graph_.nodes();
+  const double radius = radius_of(patch);
   std::vector<std::uint32_t> row_of_node;
-  const LaneGraph rows = order_by_distance(graph_, distances_, row_of_node);
-  std::vector<Member> members;
-  double radius = 0;
-  for (const std::uint32_t node : patch) radius = std::max(radius, distances_[node]);
+  LaneGraph<Units> rows = order_by_distance<Units>(graph_, {distances_, radius}, unit_, row_of_node);
   for (const std::uint32_t node : patch)
     members.push_back({.row = row_of_node[node], .node = node, .upper = candidates.upper(node)});
+  near = count_within(distances_, kNearReach * radius);
+  return rows;
+}
+
+double PatchBounder::radius_of(const Patch& patch) const {
+  double radius = 0;
+  for (const std::uint32_t node : patch) radius = std::max(radius, distances_[node]);
+  return radius;
+}
+
+PatchResult PatchBounder::bound(const Patch& patch, const Candidates& candidates, double slack_share) {
+  slack_share_ = slack_share;
+  std::vector<Member> members;
+  std::uint32_t near = 0;
+  const LaneGraph<Units> rows = begin(patch, candidates, members, near);
+  refine(rows, std::move(members), near);
+  return std::exchange(result_, {});
+}
+
+PatchResult PatchBounder::sample(const Patch& patch, const Candidates& candidates) {
+  std::vector<Member> members;
+  std::uint32_t near = 0;
+  const LaneGraph<Units> rows = begin(patch, candidates, members, near);
+  for (const Member& open : search(rows, members, near, spread_sources(members)))
+    result_.bounds.emplace_back(open.node, open.upper);
+  return std::exchange(result_, {});
+}
+
+PatchResult PatchBounder::measure(const Patch& patch) {
+  return patch.size() < kLeastTogether ? measure_apart(patch) : measure_together(patch);
+}
+
+PatchResult PatchBounder::measure_apart(const Patch& patch) {
   PatchResult result;
-  result.work = graph_.nodes();
-  refine(rows, std::move(members), count_within(distances_, kNearReach * radius), true, result);
+  for (const std::uint32_t node : patch) {
+    paths_.run(node, distances_);
+    result.totals.emplace_back(node, total_distance(graph_, distances_));
+    result.work += graph_.nodes();
+  }
   return result;
 }
 
-// `whole`: the graph is not contracted, totals are true.
-void PatchBounder::refine(const LaneGraph& rows, std::vector<Member> members, std::uint32_t near, bool whole,
-                          PatchResult& result) {
-  if (depth_ == kMostSplits && members.size() > kLanes) return refine_in_groups(rows, members, near, result);
+PatchResult PatchBounder::measure_together(const Patch& patch) {
+  paths_.run(patch.front(), distances_);
+  const double radius = radius_of(patch);
+  std::vector<std::uint32_t> row_of_node, sources;
+  const LaneGraph<double> rows = order_by_distance<double>(graph_, {distances_, radius}, 1, row_of_node);
+  for (const std::uint32_t node : patch) sources.push_back(row_of_node[node]);
+  exact_search_.run(rows, sources, count_within(distances_, kNearReach * radius));
+  const std::array<double, kLanes> totals = exact_search_.totals(rows);
+  PatchResult result{.totals = {}, .bounds = {}, .work = (1 + patch.size()) * graph_.nodes()};
+  for (std::size_t lane = 0; lane < patch.size(); ++lane)
+    result.totals.emplace_back(patch[lane], totals[lane]);
+  return result;
+}
+
+void PatchBounder::refine(const LaneGraph<Units>& rows, std::vector<Member> members, std::uint32_t near) {
+  if (depth_ == kMostSplits && members.size() > kLanes) return refine_in_groups(rows, members, near);
   const std::vector<std::size_t> sources = spread_sources(members);
-  std::vector<std::uint32_t> source_rows;
-  for (const std::size_t source : sources) source_rows.push_back(members[source].row);
-  search_.run(rows, source_rows, near);
-  result.work += std::uint64_t{sources.size()} * rows.rows();
-  const std::vector<Member> open = apply_totals(rows, members, sources, whole, result);
+  const std::vector<Member> open = search(rows, members, near, sources);
   if (open.empty()) return;
   double highest = 0;
   for (const std::size_t source : sources) highest = std::max(highest, members[source].upper);
-  const double slack = std::max(0.0, best_ * (1 - kTie) - highest);
-  split(rows, open, sources.size(), slack, result);
+  split(rows, open, sources.size(), std::max(0.0, best_ * (1 - kTie) - highest));
 }
 
-void PatchBounder::refine_in_groups(const LaneGraph& rows, const std::vector<Member>& members,
-                                    std::uint32_t near, PatchResult& result) {
+void PatchBounder::refine_in_groups(const LaneGraph<Units>& rows, const std::vector<Member>& members,
+                                    std::uint32_t near) {
   for (std::size_t begin = 0; begin < members.size(); begin += kLanes) {
     const auto first = members.begin() + static_cast<std::ptrdiff_t>(begin);
-    refine(rows, {first, first + static_cast<std::ptrdiff_t>(std::min(kLanes, members.size() - begin))}, near,
-           false, result);
+    refine(rows, {first, first + static_cast<std::ptrdiff_t>(std::min(kLanes, members.size() - begin))},
+           near);
   }
 }
 
@@ -74,9 +121,8 @@ std::vector<std::size_t> PatchBounder::spread_sources(const std::vector<Member>&
     return sources;
   }
   std::vector<float> nearest(members.size(), std::numeric_limits<float>::infinity());
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < members.size(); ++i)
-    if (members[i].upper > members[next].upper) next = i;
+  auto next =
+      static_cast<std::size_t>(std::ranges::max_element(members, {}, &Member::upper) - members.begin());
   while (sources.size() < kLanes) {
     sources.push_back(next);
     for (std::size_t i = 0; i < members.size(); ++i)
@@ -88,68 +134,85 @@ std::vector<std::size_t> PatchBounder::spread_sources(const std::vector<Member>&
   return sources;
 }
 
-// Records what the search proved; returns the members that may still be the start.
-std::vector<PatchBounder::Member> PatchBounder::apply_totals(const LaneGraph& rows,
-                                                             std::vector<Member>& members,
-                                                             const std::vector<std::size_t>& sources,
-                                                             bool whole, PatchResult& result) {
+// Records what a search from the sources proves; returns the members that may still be the start.
+std::vector<PatchBounder::Member> PatchBounder::search(const LaneGraph<Units>& rows,
+                                                       std::vector<Member>& members, std::uint32_t near,
+                                                       const std::vector<std::size_t>& sources) {
+  std::vector<std::uint32_t> source_rows;
+  for (const std::size_t source : sources) source_rows.push_back(members[source].row);
+  if (depth_ == 0 && members.size() >= kLeastTooWide) {
+    result_.too_wide = !search_.try_together(rows, source_rows, near);
+    if (result_.too_wide) return {};
+  } else {
+    search_.run(rows, source_rows, near);
+  }
+  result_.work += std::uint64_t{sources.size()} * rows.rows();
   const std::array<double, kLanes> totals = search_.totals(rows);
   std::vector<std::uint8_t> is_source(members.size(), 0);
   for (std::size_t lane = 0; lane < sources.size(); ++lane) {
     Member& member = members[sources[lane]];
     is_source[sources[lane]] = 1;
-    member.upper = whole ? totals[lane] : std::min(member.upper, totals[lane]);
-    (whole ? result.totals : result.bounds).emplace_back(member.node, member.upper);
-    if (whole) best_ = std::max(best_, totals[lane]);
+    member.upper = std::min(member.upper, totals[lane] * unit_);
+    result_.bounds.emplace_back(member.node, member.upper);
   }
-  const auto n = static_cast<double>(graph_.triangles);
+  if (depth_ == 0) {
+    const auto highest =
+        std::ranges::max_element(sources, {}, [&](std::size_t i) { return members[i].upper; });
+    if (members[*highest].upper > best_) raise_best(members[*highest]);
+  }
+  const double others = graph_.triangles - 2.0;  // see Candidates::bound_all
   std::vector<Member> open;
   for (std::size_t i = 0; i < members.size(); ++i) {
     if (is_source[i] != 0) continue;
     Member member = members[i];
-    const Lanes& distances = search_.distances()[member.row];
+    const Lanes<Units>& distances = search_.distances()[member.row];
     for (std::size_t lane = 0; lane < sources.size(); ++lane)
-      member.upper = std::min(member.upper, totals[lane] + n * distances.of[lane]);
+      member.upper = std::min(member.upper, (totals[lane] + others * distances.of[lane]) * unit_);
     if (member.upper >= best_ * (1 - kTie))
       open.push_back(member);
     else
-      result.bounds.emplace_back(member.node, member.upper);
+      result_.bounds.emplace_back(member.node, member.upper);
   }
   return open;
 }
 
-void PatchBounder::split(const LaneGraph& rows, const std::vector<Member>& open, std::size_t sources,
-                         double slack, PatchResult& result) {
+void PatchBounder::raise_best(Member& member) {
+  paths_.run(member.node, distances_);
+  member.upper = total_distance(graph_, distances_);
+  best_ = std::max(best_, member.upper);
+  result_.totals.emplace_back(member.node, member.upper);
+  result_.work += graph_.nodes();
+}
+
+void PatchBounder::split(const LaneGraph<Units>& rows, const std::vector<Member>& open, std::size_t sources,
+                         double slack) {
   const std::size_t parts = std::min({kParts, sources, (open.size() + kLanes - 1) / kLanes});
   std::vector<std::vector<Member>> part(parts);
-  ContractionRules rules;
   std::vector<std::uint32_t> kept;
-  std::vector<double> radius(parts, 0);
   for (const Member& member : open) {
-    const Lanes& distances = search_.distances()[member.row];
-    const auto nearest =
-        std::min_element(distances.of.begin(), distances.of.begin() + parts) - distances.of.begin();
-    part[static_cast<std::size_t>(nearest)].push_back(member);
+    const auto& distances = search_.distances()[member.row].of;
+    const auto end = distances.begin() + static_cast<std::ptrdiff_t>(parts);
+    part[static_cast<std::size_t>(std::min_element(distances.begin(), end) - distances.begin())].push_back(
+        member);
     kept.push_back(member.row);
-    radius[static_cast<std::size_t>(nearest)] =
-        std::max(radius[static_cast<std::size_t>(nearest)],
-                 *std::min_element(distances.of.begin(), distances.of.begin() + parts));
-    rules.kept_radius = std::max(rules.kept_radius, distances.of[0]);
   }
-  rules.kept_rows = kept;
-  rules.tolerance = kSlackShare * slack / static_cast<double>(graph_.triangles);
-  const Contraction smaller = contract(rows, search_.distances(), rules);
+  const double tolerance = slack_share_ * slack / (graph_.triangles * unit_);
+  const Contraction smaller =
+      contract(rows, search_.distances(), kept,
+               static_cast<Units>(std::min<double>(tolerance, kUnreached<Units> - 1)));
   // The search's distances are overwritten below: what orders the parts is taken out first.
   std::vector<std::vector<double>> order(parts);
   for (std::size_t p = 0; p < parts; ++p)
     for (const std::uint32_t root : smaller.roots) order[p].push_back(search_.distances()[root].of[p]);
   for (std::size_t p = 0; p < parts; ++p) {
     if (part[p].empty()) continue;
+    double radius = 0;
+    for (const Member& member : part[p]) radius = std::max(radius, order[p][smaller.row[member.row]]);
     std::vector<std::uint32_t> new_row;
-    const LaneGraph ordered = order_by_distance(smaller.graph, order[p], new_row);
+    const LaneGraph<Units> ordered = order_by_distance(smaller.graph, {order[p], radius}, new_row);
     for (Member& member : part[p]) member.row = new_row[smaller.row[member.row]];
     ++depth_;
-    refine(ordered, std::move(part[p]), count_within(order[p], kNearReach * radius[p]), false, result);
+    refine(ordered, std::move(part[p]), count_within(order[p], kNearReach * radius));
     --depth_;
   }
 }

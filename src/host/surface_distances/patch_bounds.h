@@ -8,6 +8,7 @@
 #include "surface_distances/candidates.h"
 #include "surface_distances/dual_graph.h"
 #include "surface_distances/lane_search.h"
+#include "surface_distances/patches.h"
 #include "surface_distances/shortest_paths.h"
 
 namespace scene_analyzer::surface_distances {
@@ -17,38 +18,55 @@ struct PatchResult {
   std::vector<std::pair<std::uint32_t, double>> totals;  // true ones
   std::vector<std::pair<std::uint32_t, double>> bounds;
   std::uint64_t work = 0;  // sources x rows
+  bool too_wide = false;   // nothing was found, for shortest paths have too little in common
 };
 
-// Scratch of one thread. Patches up to kLanes triangles are searched for real; larger ones get true totals
-// for 16 members and bounds for the rest. Memory: about 400 bytes per node.
+// Scratch of one thread. Memory: about 300 bytes per node. Bounds are searched for in units of `unit`: four
+// times the component's extent have to fit DistanceTraits<Units>.
 class PatchBounder {
  public:
-  explicit PatchBounder(const DualGraph& graph) : graph_(graph), paths_(graph), distances_(graph.nodes()) {}
+  PatchBounder(const DualGraph& graph, double unit)
+      : graph_(graph), unit_(unit), paths_(graph), distances_(graph.nodes()) {}
 
-  // `patch`: nodes near each other, the first about in the middle. Reads `candidates` only.
-  PatchResult bound(const std::vector<std::uint32_t>& patch, const Candidates& candidates);
+  // Bounds all of `patch` on smaller and smaller graphs, unless it is too wide. `slack_share`: of the way
+  // from the patch's totals to the best, the part that making graphs smaller may use up. Reads `candidates`
+  // only, as do all of these.
+  PatchResult bound(const Patch& patch, const Candidates& candidates, double slack_share);
+  // Looks at 16 spread members: true total of the most promising one, bounds for all.
+  PatchResult sample(const Patch& patch, const Candidates& candidates);
+  // True totals; at most kLanes nodes.
+  PatchResult measure(const Patch& patch);
 
  private:
   struct Member {
     std::uint32_t row, node;
     double upper;
   };
-  void refine_in_groups(const LaneGraph& rows, const std::vector<Member>& members, std::uint32_t near,
-                        PatchResult& result);
-  void refine(const LaneGraph& rows, std::vector<Member> members, std::uint32_t near, bool whole,
-              PatchResult& result);
+  LaneGraph<Units> begin(const Patch& patch, const Candidates& candidates, std::vector<Member>& members,
+                         std::uint32_t& near);
+  PatchResult measure_apart(const Patch& patch);
+  PatchResult measure_together(const Patch& patch);
+  double radius_of(const Patch& patch) const;
+  void refine(const LaneGraph<Units>& rows, std::vector<Member> members, std::uint32_t near);
+  void refine_in_groups(const LaneGraph<Units>& rows, const std::vector<Member>& members, std::uint32_t near);
+  std::vector<Member> search(const LaneGraph<Units>& rows, std::vector<Member>& members, std::uint32_t near,
+                             const std::vector<std::size_t>& sources);
+  void raise_best(Member& member);
   std::vector<std::size_t> spread_sources(const std::vector<Member>& members) const;
-  std::vector<Member> apply_totals(const LaneGraph& rows, std::vector<Member>& members,
-                                   const std::vector<std::size_t>& sources, bool whole, PatchResult& result);
-  void split(const LaneGraph& rows, const std::vector<Member>& open, std::size_t sources, double slack,
-             PatchResult& result);
+  void split(const LaneGraph<Units>& rows, const std::vector<Member>& open, std::size_t sources,
+             double slack);
 
   const DualGraph& graph_;
+  double unit_;
   ShortestPaths paths_;
   std::vector<double> distances_;
-  LaneSearch search_;
+  LaneSearch<Units> search_;
+  LaneSearch<double> exact_search_;
+  // Of the patch at hand:
   const Candidates* candidates_ = nullptr;
+  PatchResult result_;
   double best_ = 0;
+  double slack_share_ = 0;
   unsigned depth_ = 0;  // how often the graph at hand was contracted
 };
 

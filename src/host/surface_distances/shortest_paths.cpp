@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <queue>
 
 namespace scene_analyzer::surface_distances {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A ring longer than this would cost more to walk than wide buckets cost in repeated visits.
 constexpr double kMostBuckets = 1 << 15;
 // Visits per arc after which the buckets are given up.
@@ -16,15 +14,17 @@ constexpr std::uint64_t kMostVisits = 8;
 
 }  // namespace
 
-void ShortestPaths::use(const Arcs& arcs, std::uint32_t nodes) {
+template <typename Distance>
+void BasicShortestPaths<Distance>::use(const Arcs& arcs, std::uint32_t nodes) {
   arcs_ = arcs;
   nodes_ = nodes;
   buckets_serve_ = true;
   double sum = 0, longest = 0;
   const std::uint32_t count = arcs.first[nodes];
-  for (const double length : arcs.length.first(count)) {
+  for (const Distance length : arcs.length.first(count)) {
+    if (length == kUnreached<Distance>) continue;
     sum += length;
-    longest = std::max(longest, length);
+    longest = std::max(longest, static_cast<double>(length));
   }
   if (longest == 0) longest = 1;
   const double mean = sum > 0 ? sum / count : 1;
@@ -35,14 +35,16 @@ void ShortestPaths::use(const Arcs& arcs, std::uint32_t nodes) {
   if (ring_.size() < needed) ring_.resize(needed);
 }
 
-void ShortestPaths::run(std::uint32_t source, std::span<double> distances) {
+template <typename Distance>
+void BasicShortestPaths<Distance>::run(std::uint32_t source, std::span<Distance> distances) {
   if (buckets_serve_) buckets_serve_ = run_buckets(source, distances);
   if (!buckets_serve_) run_heap(source, distances);
 }
 
 // False, with the ring empty again, when nodes were visited too often.
-bool ShortestPaths::run_buckets(std::uint32_t source, std::span<double> distances) {
-  std::ranges::fill(distances, kInfinity);
+template <typename Distance>
+bool BasicShortestPaths<Distance>::run_buckets(std::uint32_t source, std::span<Distance> distances) {
+  std::ranges::fill(distances, kUnreached<Distance>);
   distances[source] = 0;
   const std::size_t mask = ring_.size() - 1;
   const std::uint64_t most_visits = kMostVisits * (nodes_ + arcs_.first[nodes_]);
@@ -56,7 +58,7 @@ bool ShortestPaths::run_buckets(std::uint32_t source, std::span<double> distance
       if (entry.distance > distances[entry.node]) continue;
       visits += 1 + arcs_.first[entry.node + 1] - arcs_.first[entry.node];
       for (std::uint32_t arc = arcs_.first[entry.node]; arc < arcs_.first[entry.node + 1]; ++arc) {
-        const double distance = entry.distance + arcs_.length[arc];
+        const Distance distance = entry.distance + arcs_.length[arc];
         const std::uint32_t target = arcs_.target[arc];
         if (target >= nodes_ || !(distance < distances[target])) continue;
         distances[target] = distance;
@@ -72,8 +74,9 @@ bool ShortestPaths::run_buckets(std::uint32_t source, std::span<double> distance
   return false;
 }
 
-void ShortestPaths::run_heap(std::uint32_t source, std::span<double> distances) const {
-  std::ranges::fill(distances, kInfinity);
+template <typename Distance>
+void BasicShortestPaths<Distance>::run_heap(std::uint32_t source, std::span<Distance> distances) const {
+  std::ranges::fill(distances, kUnreached<Distance>);
   distances[source] = 0;
   const auto later = [](const Entry& a, const Entry& b) { return a.distance > b.distance; };
   std::priority_queue<Entry, std::vector<Entry>, decltype(later)> queue(later);
@@ -83,7 +86,7 @@ void ShortestPaths::run_heap(std::uint32_t source, std::span<double> distances) 
     queue.pop();
     if (entry.distance > distances[entry.node]) continue;
     for (std::uint32_t arc = arcs_.first[entry.node]; arc < arcs_.first[entry.node + 1]; ++arc) {
-      const double distance = entry.distance + arcs_.length[arc];
+      const Distance distance = entry.distance + arcs_.length[arc];
       const std::uint32_t target = arcs_.target[arc];
       if (target >= nodes_ || !(distance < distances[target])) continue;
       distances[target] = distance;
@@ -91,6 +94,9 @@ void ShortestPaths::run_heap(std::uint32_t source, std::span<double> distances) 
     }
   }
 }
+
+template class BasicShortestPaths<double>;
+template class BasicShortestPaths<Units>;
 
 double total_distance(const DualGraph& graph, std::span<const double> distances) {
   constexpr std::size_t kBlock = 1024;  // sums of sums keep rounding far below 1e-12

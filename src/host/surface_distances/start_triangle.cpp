@@ -1,13 +1,14 @@
 #include "surface_distances/start_triangle.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "surface_distances/candidates.h"
 #include "surface_distances/patch_bounds.h"
+#include "surface_distances/patches.h"
 #include "surface_distances/shortest_paths.h"
+#include "surface_distances/sources.h"
 
 namespace scene_analyzer::surface_distances {
 namespace {
@@ -18,17 +19,25 @@ constexpr std::size_t kPatchesPerRound = 8;
 // Sources that alternate with the triangle farthest from all before: they see the whole shape, and are the
 // landmarks.
 constexpr std::size_t kScouts = 16;
-// Edges with at least so many triangles, and at most so many edges, are searched from, too.
-constexpr std::uint32_t kLeastOnHub = 16;
-constexpr std::size_t kMostHubs = 8;
 // A search that closes a smaller part of the triangles is no longer worth its time...
 constexpr double kWorthwhile = 0.002;
+constexpr double kWorthwhileWidely = 0.0004;
 // ... unless so few are left that patches would take longer.
 constexpr std::size_t kFew = 64;
-// Patches: larger ones share more, but across wide ones shortest paths have too little in common.
-constexpr std::size_t kPatchSize = 4096;
-constexpr std::size_t kLeastPatch = 128;
-constexpr double kPatchReach = 0.15;  // of the component's extent
+// Patches: wide ones share more, but across too wide ones shortest paths have too little in common.
+constexpr std::size_t kMostInPatch = 65536;
+constexpr std::size_t kLeastInPatch = 16;
+constexpr std::size_t kLeastOpen = 400;  // for patches; fewer are searched from at once
+constexpr double kPatchReach = 0.12;     // of the component's extent, at first
+constexpr double kNarrower = 0.75;       // what becomes of the reach when patches were too wide
+// Of the way from a patch's totals to the best, the part that smaller graphs may use up: first much, which
+// is fast and leaves a few, then little.
+constexpr double kSlackShares[] = {0.15, 0.03, 0.01};
+// From the best triangles so far, patches shrink towards still better ones.
+constexpr std::size_t kClimbers = 2;
+constexpr double kClimbFrom = 0.15;  // of the component's extent
+constexpr double kShrink = 0.5;
+constexpr double kGroupReach = 0.05;  // of triangles that are searched from together
 constexpr double kLevel =
     1e-11;  // totals closer than this to the best cannot raise it by anything that counts
 
@@ -44,8 +53,10 @@ class StartSearch {
 
   StartTriangle run() {
     scout();
-    search_best_first();
-    bound_patches();
+    search_best_first(kScouts);
+    climb();
+    search_widely();
+    for (const double share : kSlackShares) bound_patches(share);
     search_remaining();
     settle_ties();
     return result();
@@ -81,116 +92,119 @@ class StartSearch {
     work_ += graph_.nodes();
     const auto triangles = std::span(distances_[0]).first(graph_.triangles);
     extent_ = *std::ranges::max_element(triangles);
+    patch_reach_ = kPatchReach * extent_;
     search({static_cast<std::uint32_t>(std::ranges::max_element(triangles) - triangles.begin())});
-    search(hubs());
+    search(hubs(graph_));
   }
 
-  // Edges with the most triangles, many of which may hang on nothing else.
-  std::vector<std::uint32_t> hubs() const {
-    const auto triangles_on = [&](std::uint32_t node) { return graph_.first[node + 1] - graph_.first[node]; };
-    std::vector<std::uint32_t> nodes;
-    for (std::uint32_t node = graph_.triangles; node < graph_.nodes(); ++node)
-      if (triangles_on(node) >= kLeastOnHub) nodes.push_back(node);
-    const std::size_t taken = std::min(nodes.size(), kMostHubs);
-    std::ranges::partial_sort(
-        nodes, nodes.begin() + static_cast<std::ptrdiff_t>(taken), {},
-        [&](std::uint32_t node) { return std::pair(-std::int64_t{triangles_on(node)}, node); });
-    nodes.resize(taken);
-    return nodes;
-  }
-
-  void search_best_first() {
+  // Until a search is no longer worth its time, but not before `scouts` searches, which go to the far ends of
+  // the shape, too.
+  void search_best_first(std::size_t scouts) {
     std::vector<std::uint32_t> open = candidates_.open();
     for (std::size_t searches = 1; !open.empty() && !spent();) {
-      const std::vector<std::uint32_t> sources = next_sources(open, searches < kScouts);
+      std::vector<std::uint32_t> sources = highest_bounds(open, candidates_, kSourcesPerRound);
+      const std::uint32_t far = candidates_.farthest();
+      if (searches < scouts && !candidates_.is_searched(far) &&
+          std::ranges::find(sources, far) == sources.end())
+        sources.back() = far;
       search(sources);
       searches += sources.size();
       const std::size_t before = open.size();
       open = candidates_.open();
       report(open.size());
       const double worthwhile = kWorthwhile * static_cast<double>(sources.size()) * graph_.triangles;
-      if (searches > kScouts && open.size() > kFew && static_cast<double>(before - open.size()) < worthwhile)
+      if (searches > scouts && open.size() > kFew && static_cast<double>(before - open.size()) < worthwhile)
         return;
     }
   }
 
-  // The open triangle of the largest bound; further ones after lowering bounds by what the first are expected
-  // to prove.
-  std::vector<std::uint32_t> next_sources(const std::vector<std::uint32_t>& open, bool scouting) const {
-    const auto n = static_cast<double>(graph_.triangles);
-    std::vector<double> expected;
-    for (const std::uint32_t v : open) expected.push_back(candidates_.upper(v));
-    std::vector<std::uint32_t> sources;
-    while (sources.size() < std::min(kSourcesPerRound, open.size())) {
-      const auto highest = static_cast<std::size_t>(std::ranges::max_element(expected) - expected.begin());
-      if (expected[highest] < candidates_.threshold()) break;
-      const std::uint32_t source = open[highest];
-      sources.push_back(source);
-      for (std::size_t i = 0; i < open.size(); ++i)
-        expected[i] =
-            std::min(expected[i], candidates_.best() + n * candidates_.about_distance(open[i], source));
-      expected[highest] = 0;
+  // From open triangles far from all sources: once the best is good, each closes all around it that is
+  // clearly worse.
+  void search_widely() {
+    std::vector<std::uint32_t> open = candidates_.open();
+    std::size_t searches = 0, last_open = open.size();
+    while (open.size() > kFew && !spent()) {
+      const std::vector<std::uint32_t> sources = far_from_all(open, candidates_, kSourcesPerRound);
+      search(sources);
+      open = candidates_.open();
+      report(open.size());
+      searches += sources.size();
+      if (searches < kScouts) continue;
+      const double worthwhile = kWorthwhileWidely * static_cast<double>(searches) * graph_.triangles;
+      if (static_cast<double>(last_open - open.size()) < worthwhile) return;
+      searches = 0;
+      last_open = open.size();
     }
-    if (!scouting) return sources;
-    const std::uint32_t far = candidates_.farthest();
-    if (!candidates_.is_searched(far) && std::ranges::find(sources, far) == sources.end())
-      sources.back() = far;
-    return sources;
   }
 
-  void bound_patches() {
+  // A good best lets many a bound pass that would fail a poor one.
+  void climb() {
+    if (candidates_.open().size() <= kFew) return;
+    std::vector<std::uint32_t> at = highest_apart(candidates_, kClimbers, kClimbFrom * extent_);
+    for (double reach = kClimbFrom * extent_; !at.empty() && !spent(); reach *= kShrink) {
+      std::vector<Patch> patches;
+      for (const std::uint32_t centre : at) patches.push_back(patch_around(centre, candidates_, reach));
+      bound(patches,
+            [&](PatchBounder& bounder, const Patch& patch) { return bounder.sample(patch, candidates_); });
+      at.clear();
+      for (const Patch& patch : patches)
+        if (patch.size() > kLanes) at.push_back(highest_searched(patch));
+    }
+  }
+
+  std::uint32_t highest_searched(const Patch& patch) const {
+    std::uint32_t highest = patch.front();
+    for (const std::uint32_t v : patch)
+      if (candidates_.is_searched(v) && candidates_.upper(v) > candidates_.upper(highest)) highest = v;
+    return highest;
+  }
+
+  void bound_patches(double slack_share) {
     std::vector<std::uint32_t> unbounded = candidates_.open();
     const std::size_t all = unbounded.size();
-    while (unbounded.size() > kFew && !spent()) {
-      const auto patches = take_patches(unbounded, patch_size());
-      bound(patches);
+    if (all < kLeastOpen) return;
+    while (!unbounded.empty() && !spent()) {
+      const std::vector<Patch> patches = take_patches(
+          unbounded, candidates_, {.least = kLeastInPatch, .most = patch_most_, .reach = patch_reach_},
+          kPatchesPerRound);
+      const auto results = bound(patches, [&](PatchBounder& bounder, const Patch& patch) {
+        return bounder.bound(patch, candidates_, slack_share);
+      });
+      for (const std::size_t i : too_wide(results)) {
+        unbounded.insert(unbounded.end(), patches[i].begin(), patches[i].end());
+        // Small ones are never too wide, which ends this.
+        patch_most_ = std::max(kLeastInPatch, std::min(patch_most_, patches[i].size() / 2));
+      }
+      if (!too_wide(results).empty()) patch_reach_ *= kNarrower;
       std::erase_if(unbounded, [&](std::uint32_t v) { return !candidates_.is_open(v); });
       if (options_.progress)
         options_.progress(1 - static_cast<double>(unbounded.size()) / static_cast<double>(all));
     }
   }
-  std::size_t patch_size() const { return kPatchSize; }
 
-  void bound(const std::vector<std::vector<std::uint32_t>>& patches) {
+  static std::vector<std::size_t> too_wide(const std::vector<PatchResult>& results) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (results[i].too_wide) places.push_back(i);
+    return places;
+  }
+
+  template <typename Bound>
+  std::vector<PatchResult> bound(const std::vector<Patch>& patches, Bound bound_patch) {
     std::vector<PatchResult> results(patches.size());
     side_by_side(patches.size(), [&](std::size_t i, std::size_t worker) {
-      if (!bounders_[worker]) bounders_[worker] = std::make_unique<PatchBounder>(graph_);
-      results[i] = bounders_[worker]->bound(patches[i], candidates_);
+      if (!bounders_[worker]) bounders_[worker] = std::make_unique<PatchBounder>(graph_, unit());
+      results[i] = bound_patch(*bounders_[worker], patches[i]);
     });
     for (const PatchResult& result : results) {
       work_ += result.work;
       for (const auto& [v, total] : result.totals) candidates_.set_total(v, total);
       for (const auto& [v, upper] : result.bounds) candidates_.lower_upper(v, upper);
     }
+    return results;
   }
-
-  // Takes patches around those of the largest bounds out of `open`.
-  std::vector<std::vector<std::uint32_t>> take_patches(std::vector<std::uint32_t>& open,
-                                                       std::size_t size) const {
-    std::vector<std::vector<std::uint32_t>> patches;
-    while (patches.size() < kPatchesPerRound && !open.empty()) {
-      const std::uint32_t centre =
-          *std::ranges::max_element(open, {}, [&](std::uint32_t v) { return candidates_.upper(v); });
-      std::vector<std::pair<float, std::uint32_t>> near;
-      for (const std::uint32_t v : open)
-        near.emplace_back(v == centre ? -1 : candidates_.about_distance(v, centre), v);
-      const std::size_t taken = keep_nearest(near, size);
-      auto& patch = patches.emplace_back();
-      open.clear();
-      for (std::size_t i = 0; i < near.size(); ++i) (i < taken ? patch : open).push_back(near[i].second);
-    }
-    return patches;
-  }
-
-  // Sorts the front of `near`: what makes a patch. Returns how many that are.
-  std::size_t keep_nearest(std::vector<std::pair<float, std::uint32_t>>& near, std::size_t size) const {
-    const std::size_t most = std::min(size, near.size());
-    std::ranges::nth_element(near, near.begin() + static_cast<std::ptrdiff_t>(most) - 1);
-    std::ranges::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(most));
-    std::size_t taken = std::min(kLeastPatch, most);
-    while (taken < most && near[taken].first <= kPatchReach * extent_) ++taken;
-    return taken;
-  }
+  // Twice the room for the farthest pair: no two triangles are farther apart than twice the extent.
+  double unit() const { return extent_ > 0 ? 4 * extent_ / kUnreached<Units> : 1; }
 
   // True totals for all that may be larger than the best.
   void search_remaining() {
@@ -199,7 +213,9 @@ class StartSearch {
       std::erase_if(
           above, [&](std::uint32_t v) { return candidates_.upper(v) <= candidates_.best() * (1 + kLevel); });
       if (above.empty()) return;
-      bound(take_patches(above, kLanes));
+      bound(take_patches(above, candidates_, {.least = 1, .most = kLanes, .reach = kGroupReach * extent_},
+                         kPatchesPerRound),
+            [&](PatchBounder& bounder, const Patch& patch) { return bounder.measure(patch); });
     }
   }
 
@@ -253,7 +269,9 @@ class StartSearch {
   std::vector<std::unique_ptr<ShortestPaths>> paths_;    // per thread
   std::vector<std::unique_ptr<PatchBounder>> bounders_;  // per thread, made when needed
   std::vector<std::vector<double>> distances_;           // per source of a round
-  double extent_ = 0;       // how far the farthest triangle is from some triangle
+  double extent_ = 0;  // how far the farthest triangle is from some triangle
+  double patch_reach_ = 0;
+  std::size_t patch_most_ = kMostInPatch;
   std::uint64_t work_ = 0;  // sources x rows
 };
 
