@@ -212,6 +212,38 @@ TEST_F(MeasureTest, AMeshThatDoesNotFitIsReportedAndTheOthersAreMeasured) {
   EXPECT_EQ(analysis.geometries[1].triangles, 192U);
 }
 
+// A signal that cannot be transformed costs its mesh that rating and nothing else.
+TEST_F(MeasureTest, AMeshWithoutASpectrumKeepsItsOtherRatings) {
+  const mesh::Scene scene =
+      test::scene_of({test_meshes::geosphere(8), test_meshes::torus(6, 5), test_meshes::geosphere(3)});
+  const AssetAnalysis expected = measure(scene);
+  Measurer limited(device(), {.longest = 200});
+  std::vector<std::uint32_t> with_signal;
+  AssetAnalysis found;
+  limited.measure(scene, {}, MetricSet().set(), {}, found, {},
+                  [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
+                    with_signal.push_back(geometry);
+                    EXPECT_EQ(signal.magnitudes.size(), signal.areas.size() / 2 + 1);
+                  });
+  EXPECT_EQ(with_signal, (std::vector<std::uint32_t>{1, 2}));
+  ASSERT_EQ(found.geometries.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(found.geometries[i].not_analysed, "");
+    EXPECT_EQ(found.geometries[i].polygons_per_planar_group,
+              expected.geometries[i].polygons_per_planar_group);
+    EXPECT_EQ(found.geometries[i].cooccurrence_contrast, expected.geometries[i].cooccurrence_contrast);
+    EXPECT_EQ(is_beyond_a_limit(found.geometries[i]), i == 0);
+  }
+  EXPECT_EQ(found.geometries[0].fourier_transform, std::nullopt);
+  EXPECT_EQ(found.geometries[0].signal, std::nullopt);
+  EXPECT_NE(found.geometries[0].no_fourier_transform.find("1280 samples"), std::string::npos);
+  EXPECT_NE(found.geometries[0].no_fourier_transform.find("at most 200"), std::string::npos);
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_EQ(found.geometries[i].fourier_transform, expected.geometries[i].fourier_transform);
+    EXPECT_EQ(found.geometries[i].signal, expected.geometries[i].signal);
+  }
+}
+
 TEST_F(MeasureTest, AMeshBeyondTheDeviceIsReportedWithNeedAndLimit) {
   gpu::DeviceInfo small;
   small.name = "a small device";

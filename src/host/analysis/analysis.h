@@ -63,8 +63,14 @@ struct GeometryAnalysis {
   std::optional<double> cooccurrence_contrast;
   std::optional<double> fourier_transform;
   std::optional<SignalSummary> signal;  // absent where fourier_transform is; its length may be 0
+  std::string no_fourier_transform;     // why that alone is absent although it was asked for; or empty
   std::string not_analysed;             // why everything above is absent, with need and limit; or empty
 };
+
+// Whether something that was asked for is missing because of a limit.
+inline bool is_beyond_a_limit(const GeometryAnalysis& geometry) {
+  return !geometry.not_analysed.empty() || !geometry.no_fourier_transform.empty();
+}
 
 struct InstanceAnalysis {
   std::uint32_t geometry = 0;  // index into AssetAnalysis::geometries

@@ -60,8 +60,9 @@ void log_outcome(const std::string& asset, const pipeline::Outcome& outcome, dou
 }
 
 bool beyond_a_limit(const analysis::AssetAnalysis& analysis) {
-  return std::ranges::any_of(analysis.geometries,
-                             [](const auto& geometry) { return !geometry.not_analysed.empty(); });
+  return std::ranges::any_of(analysis.geometries, [](const analysis::GeometryAnalysis& geometry) {
+    return is_beyond_a_limit(geometry);
+  });
 }
 
 pipeline::Outcome analyze_one(pipeline::Pipeline& pipeline, const std::string& asset, Progress& progress) {

@@ -104,12 +104,34 @@ void BatchRun::transform_signals(const std::vector<surface_distances::Signal>& s
     keep = [&](std::size_t mesh, std::span<const double> values) {
       magnitudes[mesh].assign(values.begin(), values.end());
     };
-  const auto spectra = stages_.spectra.transform(samples, keep);
+  const auto spectra = transform_all(samples, keep);
   for (std::size_t mesh = 0; mesh < signals.size(); ++mesh) {
-    if (totals_[mesh].kept == 0) continue;
+    if (totals_[mesh].kept == 0 || !target(mesh).no_fourier_transform.empty()) continue;
     fill_signal(target(mesh), signals[mesh], spectra[mesh]);
     if (signals_) signals_(plan_.geometries[mesh], {.areas = samples[mesh], .magnitudes = magnitudes[mesh]});
   }
+}
+
+std::vector<spectrum::SpectrumTotals> BatchRun::transform_all(
+    const std::vector<std::span<const double>>& samples, const spectrum::MagnitudeSink& keep) {
+  try {
+    return stages_.spectra.transform(samples, keep);
+  } catch (const gpu::OutOfMemory&) {
+    // One is too much: each by itself, so that neither the others' spectra nor other ratings are lost.
+  }
+  std::vector<spectrum::SpectrumTotals> spectra(samples.size());
+  for (std::size_t mesh = 0; mesh < samples.size(); ++mesh) {
+    const auto keep_one = [&](std::size_t, std::span<const double> values) { keep(mesh, values); };
+    try {
+      spectra[mesh] = stages_.spectra
+                          .transform(std::span(samples).subspan(mesh, 1),
+                                     keep ? spectrum::MagnitudeSink(keep_one) : spectrum::MagnitudeSink())
+                          .front();
+    } catch (const gpu::OutOfMemory& error) {
+      target(mesh).no_fourier_transform = error.what();
+    }
+  }
+  return spectra;
 }
 
 void BatchRun::measure_geometry() {

@@ -52,6 +52,8 @@ class BatchRun {
   void sum_contrast(const cooccurrence::AreaClasses& classes);
   void count_histograms(const cooccurrence::AreaClasses& classes);
   void transform_signals(const std::vector<surface_distances::Signal>& signals);
+  std::vector<spectrum::SpectrumTotals> transform_all(const std::vector<std::span<const double>>& samples,
+                                                      const spectrum::MagnitudeSink& keep);
 
   Measurer::Stages& stages_;
   const PlannedBatch& plan_;

@@ -13,7 +13,8 @@ namespace scene_analyzer::pipeline {
 
 using analysis::GeometryAnalysis;
 
-Measurer::Measurer(gpu::Device& device) : stages_(std::make_unique<Stages>(device)) {}
+Measurer::Measurer(gpu::Device& device, const spectrum::SpectrumLimits& limits)
+    : stages_(std::make_unique<Stages>(device, limits)) {}
 Measurer::~Measurer() = default;
 
 void Measurer::measure_batch(const PlannedBatch& plan, const Measurement& measurement,

@@ -16,6 +16,7 @@
 #include "analysis/signal.h"
 #include "gpu/device.h"
 #include "mesh/scene.h"
+#include "spectrum/spectrum.h"
 
 namespace scene_analyzer::pipeline {
 
@@ -35,11 +36,13 @@ using SignalSink = std::function<void(std::uint32_t geometry, const analysis::Si
 
 class Measurer {
  public:
-  explicit Measurer(gpu::Device& device);  // creates kernels lazily, once
+  // Creates kernels lazily, once.
+  explicit Measurer(gpu::Device& device, const spectrum::SpectrumLimits& limits = {});
   ~Measurer();
 
   // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds
-  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit.
+  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit, one whose
+  // signal alone is beyond a limit `no_fourier_transform`.
   // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes
   // per triangle (about 250 where all edges have more than two triangles). Histograms are computed only for a
   // sink. The Fourier transform's start triangles are searched on all processors of the host, see

@@ -54,8 +54,9 @@ FileState state_of(const fs::path& file) {
 }
 
 bool beyond_a_limit(const AssetAnalysis& analysis) {
-  return std::ranges::any_of(analysis.geometries,
-                             [](const auto& geometry) { return !geometry.not_analysed.empty(); });
+  return std::ranges::any_of(analysis.geometries, [](const analysis::GeometryAnalysis& geometry) {
+    return is_beyond_a_limit(geometry);
+  });
 }
 
 const std::string& name_of(const AssetAnalysis& analysis, std::size_t geometry) {
@@ -68,9 +69,11 @@ void describe_limits(const AssetAnalysis& analysis, std::vector<std::string>& me
   std::size_t beyond = 0;
   for (std::size_t i = 0; i < analysis.geometries.size(); ++i) {
     const auto& geometry = analysis.geometries[i];
-    if (geometry.not_analysed.empty() || ++beyond > kNamedMeshes) continue;
-    messages.push_back(fmt::format("{}: mesh {} ({}) is not analysed: {}", analysis.asset, geometry.mesh,
-                                   name_of(analysis, i), geometry.not_analysed));
+    if (!is_beyond_a_limit(geometry) || ++beyond > kNamedMeshes) continue;
+    const bool wholly = !geometry.not_analysed.empty();
+    messages.push_back(fmt::format("{}: mesh {} ({}) {}: {}", analysis.asset, geometry.mesh,
+                                   name_of(analysis, i), wholly ? "is not analysed" : "has no Fourier rating",
+                                   wholly ? geometry.not_analysed : geometry.no_fourier_transform));
   }
   if (beyond > kNamedMeshes)
     messages.push_back(fmt::format("{}: {} more meshes are not analysed for such reasons", analysis.asset,

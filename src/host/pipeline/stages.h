@@ -27,10 +27,11 @@ struct Measurer::Stages {
   cooccurrence::AreaClassBuilder classes{device, scan, sort};
   cooccurrence::ContrastSummer contrast{device, scan};
   surface_distances::ArcMeasurer arcs{device};
-  spectrum::SpectrumBuilder spectra{device};
+  spectrum::SpectrumBuilder spectra;
   std::optional<cooccurrence::HistogramBuilder> histograms;  // made when somebody asks
 
-  explicit Stages(gpu::Device& on) : device(on) {}
+  explicit Stages(gpu::Device& on, const spectrum::SpectrumLimits& limits = {})
+      : device(on), spectra(on, limits) {}
 };
 
 }  // namespace scene_analyzer::pipeline

@@ -170,6 +170,7 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
     row["color"] = ratings::to_hex(
         ratings::color(*mesh.aggregate, ratings::ColorMap::kThesis, report.rating.signed_aggregate));
   row["not_analysed"] = text_or_null(geometry.not_analysed);
+  row["no_fourier_transform"] = text_or_null(geometry.no_fourier_transform);
   return row;
 }
 

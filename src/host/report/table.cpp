@@ -155,10 +155,13 @@ std::string gap_note(const SceneReport& report) {
 
 std::string totals_line(const SceneReport& report) {
   const ratings::SceneRating& scene = report.rating;
-  std::uint64_t not_analysed = 0;
+  std::uint64_t not_analysed = 0, no_fourier_transform = 0;
   for (const ratings::MeshRating& mesh : scene.meshes) {
     const analysis::AssetAnalysis& asset = report.assets[mesh.asset];
-    if (!asset.geometries.at(asset.instances.at(mesh.instance).geometry).not_analysed.empty()) ++not_analysed;
+    const analysis::GeometryAnalysis& geometry =
+        asset.geometries.at(asset.instances.at(mesh.instance).geometry);
+    if (!geometry.not_analysed.empty()) ++not_analysed;
+    if (!geometry.no_fourier_transform.empty()) ++no_fourier_transform;
   }
   std::string line = plural(scene.meshes.size(), "mesh", "meshes") + ", " +
                      plural(scene.drawn_triangles, "triangle", "triangles");
@@ -167,6 +170,8 @@ std::string totals_line(const SceneReport& report) {
   if (scene.degenerate_triangles > 0)
     line += fmt::format(", {} degenerate left out", scene.degenerate_triangles);
   if (not_analysed > 0) line += fmt::format(", {} not analysed", plural(not_analysed, "mesh", "meshes"));
+  if (no_fourier_transform > 0)
+    line += fmt::format(", {} without a Fourier rating", plural(no_fourier_transform, "mesh", "meshes"));
   if (report.options.relative) line += "; ratings relative to this scene";
   return line + '\n';
 }

@@ -22,6 +22,8 @@ SpectrumLimits checked(SpectrumLimits limits, const gpu::DeviceInfo& info) {
     throw std::logic_error("SpectrumLimits::short_samples is outside [1, 2^12]");
   if (limits.window < kLeastWindow || !std::has_single_bit(limits.window))
     throw std::logic_error("SpectrumLimits::window is no power of two from 2^12");
+  if (limits.longest > kLongestSignal)
+    throw std::logic_error("SpectrumLimits::longest is beyond kLongestSignal");
   if (limits.batch < 1) throw std::logic_error("SpectrumLimits::batch is 0");
   const std::uint64_t bindable = info.max_storage_buffer_bytes / sizeof(Complex);
   limits.window =
@@ -29,11 +31,10 @@ SpectrumLimits checked(SpectrumLimits limits, const gpu::DeviceInfo& info) {
   return limits;
 }
 
-void check_length(std::uint64_t samples) {
-  if (samples <= kLongestSignal) return;
+void check_length(std::uint64_t samples, std::uint64_t longest) {
+  if (samples <= longest) return;
   throw gpu::OutOfMemory("a signal has " + std::to_string(samples) +
-                         " samples, but Fourier transforms are made of at most " +
-                         std::to_string(kLongestSignal));
+                         " samples, but Fourier transforms are made of at most " + std::to_string(longest));
 }
 
 void finish_single(const Signal& signal, Results results) {
@@ -55,7 +56,7 @@ std::vector<SpectrumTotals> SpectrumBuilder::transform(std::span<const std::span
   std::vector<Signal> small, large;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     const Signal signal{.index = i, .samples = signals[i]};
-    check_length(signal.samples.size());
+    check_length(signal.samples.size(), limits_.longest);
     if (signal.samples.size() == 1)
       finish_single(signal, results);
     else if (!signal.samples.empty())

@@ -40,10 +40,11 @@ using MagnitudeSink = std::function<void(std::size_t signal, std::span<const dou
 
 // The defaults are the fastest where this was measured; results do not depend on them by more than rounding.
 struct SpectrumLimits {
-  std::uint32_t short_samples = 256;  // the longest signal that is summed directly; at most 2^12
-  std::uint32_t batch = 1U << 20;     // complex numbers transformed at a time
-  std::uint32_t window = 1U << 23;    // complex numbers per buffer: a power of two, at least 2^12; lowered to
-                                      // what the device can bind
+  std::uint32_t short_samples = 256;       // the longest signal that is summed directly; at most 2^12
+  std::uint32_t batch = 1U << 20;          // complex numbers transformed at a time
+  std::uint64_t longest = kLongestSignal;  // at most that
+  std::uint32_t window = 1U << 23;  // complex numbers per buffer: a power of two, at least 2^12; lowered to
+                                    // what the device can bind
 };
 
 class ShortTransform;
@@ -57,7 +58,7 @@ class SpectrumBuilder {
   ~SpectrumBuilder();
 
   // One result per signal, in their order. Samples are finite. Runs to completion. Throws gpu::OutOfMemory
-  // with need and limit, also for a signal beyond kLongestSignal, and DeviceLost.
+  // with need and limit, also for a signal beyond the longest, and DeviceLost.
   std::vector<SpectrumTotals> transform(std::span<const std::span<const double>> signals,
                                         const MagnitudeSink& magnitudes = {});
 
