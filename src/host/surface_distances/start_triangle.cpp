@@ -30,6 +30,7 @@ constexpr std::size_t kLeastInPatch = 16;
 constexpr std::size_t kLeastOpen = 400;  // for patches; fewer are searched from at once
 constexpr double kPatchReach = 0.12;     // of the component's extent, at first
 constexpr double kNarrower = 0.75;       // what becomes of the reach when patches were too wide
+constexpr double kLeastReach = 0.002;
 // Of the way from a patch's totals to the best, the part that smaller graphs may use up: first much, which
 // is fast and leaves a few, then little.
 constexpr double kSlackShares[] = {0.15, 0.03, 0.01};
@@ -56,6 +57,7 @@ class StartSearch {
     search_best_first(kScouts);
     climb();
     search_widely();
+    search_best_first(0);
     for (const double share : kSlackShares) bound_patches(share);
     search_remaining();
     settle_ties();
@@ -170,23 +172,25 @@ class StartSearch {
       const auto results = bound(patches, [&](PatchBounder& bounder, const Patch& patch) {
         return bounder.bound(patch, candidates_, slack_share);
       });
-      for (const std::size_t i : too_wide(results)) {
-        unbounded.insert(unbounded.end(), patches[i].begin(), patches[i].end());
-        // Small ones are never too wide, which ends this.
-        patch_most_ = std::max(kLeastInPatch, std::min(patch_most_, patches[i].size() / 2));
-      }
-      if (!too_wide(results).empty()) patch_reach_ *= kNarrower;
+      narrow(patches, results, unbounded);
       std::erase_if(unbounded, [&](std::uint32_t v) { return !candidates_.is_open(v); });
       if (options_.progress)
         options_.progress(1 - static_cast<double>(unbounded.size()) / static_cast<double>(all));
     }
   }
 
-  static std::vector<std::size_t> too_wide(const std::vector<PatchResult>& results) {
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < results.size(); ++i)
-      if (results[i].too_wide) places.push_back(i);
-    return places;
+  // Gives back what was too wide, to be taken again in narrower patches. Small ones are never too wide, which
+  // ends this even where triangles cannot be told apart by their distances to the landmarks.
+  void narrow(const std::vector<Patch>& patches, const std::vector<PatchResult>& results,
+              std::vector<std::uint32_t>& unbounded) {
+    bool too_wide = false;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (!results[i].too_wide) continue;
+      too_wide = true;
+      unbounded.insert(unbounded.end(), patches[i].begin(), patches[i].end());
+    }
+    if (too_wide) patch_reach_ *= kNarrower;
+    if (patch_reach_ < kLeastReach * extent_) patch_most_ = kLeastInPatch;
   }
 
   template <typename Bound>
