@@ -14,26 +14,13 @@
 #include "geometry/geometry.h"
 #include "gpu/device.h"
 #include "gpu/recorder.h"
+#include "pipeline/stages.h"
 #include "planar_groups/planar_groups.h"
-#include "primitives/radix_sort.h"
-#include "primitives/scan.h"
 #include "stages.h"
 
 namespace scene_analyzer::bench {
 
-// The kernels of all stages, made once per device.
-struct Kernels {
-  gpu::Device& device;
-  primitives::Scan scan{device};
-  primitives::RadixSort sort{device, scan};
-  geometry::GeometryBuilder geometry{device};
-  adjacency::AdjacencyBuilder adjacency{device, sort};
-  planar_groups::PlanarGroupBuilder planar{device, scan, sort};
-  cooccurrence::AreaClassBuilder classes{device, scan, sort};
-  cooccurrence::ContrastSummer contrast{device, scan};
-
-  explicit Kernels(gpu::Device& on) : device(on) {}
-};
+using Kernels = pipeline::Measurer::Stages;
 
 // Where the time of one stage went: kernels in order of first use, then whatever the host did.
 struct Profile {

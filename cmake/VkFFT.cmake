@@ -53,7 +53,13 @@ function(target_use_vkfft target source)
   make_vkfft_headers(${folder})
   target_include_directories(${target} SYSTEM PRIVATE ${folder} ${GLSLANG_FOLDER})
   # Macros of ours that expand inside the header are not the system's to the compiler.
-  set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-w" OBJECT_DEPENDS ${folder}/vkFFT.h)
+  # The header is one generator of shaders: optimising it takes a minute and saves a millisecond per plan, and
+  # UndefinedBehaviorSanitizer would take four minutes to look at code that is not ours.
+  set(options -w -O1)
+  if(SCENE_ANALYZER_SANITIZE)
+    list(APPEND options -fno-sanitize=undefined)
+  endif()
+  set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options}" OBJECT_DEPENDS ${folder}/vkFFT.h)
   # Static, and in need of each other.
   set(libraries glslang HLSL SPIRV OSDependent MachineIndependent GenericCodeGen OGLCompiler SPIRV-Tools-opt SPIRV-Tools)
   set(paths "")

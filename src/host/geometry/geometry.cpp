@@ -22,7 +22,6 @@ using interface::mesh::kNone;
 
 namespace {
 
-constexpr std::uint32_t kTransformed[] = {1};
 constexpr std::uint32_t kBlocksPerDispatch =
     1 << 18;  // keeps what many instances of large meshes take within 13 MB
 

@@ -32,6 +32,9 @@ struct Batch {
   std::uint64_t triangle_count() const;
 };
 
+// Specialisation constants of the kernels' variant for transformed batches.
+inline constexpr std::uint32_t kTransformed[] = {1};
+
 // The largest batch that `device` can hold: elements of a storage buffer of 4-byte entries, with room in hash
 // tables.
 struct BatchLimits {

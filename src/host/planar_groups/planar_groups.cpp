@@ -24,7 +24,6 @@ using interface::mesh::kNone;
 
 namespace {
 
-constexpr std::uint32_t kTransformed[] = {1};
 // A turn in 2^40 steps is finer than the 1e-9 that comparisons may deviate; 2^24 list entries leave room for
 // it in a key.
 constexpr std::uint32_t kMostAngleBits = 40;
@@ -47,15 +46,15 @@ PlanarGroupBuilder::PlanarGroupBuilder(gpu::Device& device, const primitives::Sc
       label_sets_(device),
       normals_(device.make_kernel("measure_normals", measure_normals_spv)),
       normals_transformed_(
-          device.make_kernel("measure_normals (transformed)", measure_normals_spv, kTransformed)),
+          device.make_kernel("measure_normals (transformed)", measure_normals_spv, geometry::kTransformed)),
       join_coplanar_(device.make_kernel("join_coplanar", join_coplanar_spv)),
       keys_(device.make_kernel("sort_keys_of_directions", sort_keys_of_directions_spv)),
       keys_transformed_(device.make_kernel("sort_keys_of_directions (transformed)",
-                                           sort_keys_of_directions_spv, kTransformed)),
+                                           sort_keys_of_directions_spv, geometry::kTransformed)),
       lower_heights_(device.make_kernel("lower_heights", lower_heights_spv)),
       link_(device.make_kernel("link_directions", link_directions_spv)),
       link_transformed_(
-          device.make_kernel("link_directions (transformed)", link_directions_spv, kTransformed)),
+          device.make_kernel("link_directions (transformed)", link_directions_spv, geometry::kTransformed)),
       join_linked_(device.make_kernel("join_linked", join_linked_spv)),
       count_groups_(device.make_kernel("count_groups", count_groups_spv)),
       sum_groups_(device.make_kernel("sum_groups", sum_groups_spv)),

@@ -18,8 +18,6 @@ namespace {
 // windows.
 constexpr std::uint64_t kWindow = std::uint64_t{1} << 20;
 
-constexpr std::uint32_t kTransformed[] = {1};
-
 template <typename T>
 std::span<const T> part(const std::vector<T>& whole, std::uint64_t first, std::uint64_t count) {
   return std::span(whole).subspan(first, count);
@@ -42,8 +40,8 @@ MeshSurface BatchSurfaces::surface(std::size_t mesh, const mesh::TriangleMesh& s
 
 ArcMeasurer::ArcMeasurer(gpu::Device& device)
     : measure_(device.make_kernel("measure_half_arcs", measure_half_arcs_spv)),
-      measure_transformed_(
-          device.make_kernel("measure_half_arcs (transformed)", measure_half_arcs_spv, kTransformed)) {}
+      measure_transformed_(device.make_kernel("measure_half_arcs (transformed)", measure_half_arcs_spv,
+                                              geometry::kTransformed)) {}
 
 BatchSurfaces ArcMeasurer::measure(gpu::Device& device, const geometry::Geometry& geometry,
                                    const adjacency::Adjacency& adjacency) const {

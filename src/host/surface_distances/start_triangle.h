@@ -44,7 +44,7 @@ struct StartTriangle {
 };
 
 // `areas` and `indices` per triangle node: what decides between equal totals. Cost: 20 to 200 searches on
-// scans; on spheres and tori the work of n / 3 searches at n = 8000, of n / 80 at a million. Memory: about
+// scans; on spheres and tori the work of n / 3 searches at n = 8000, of n / 100 at a million. Memory: about
 // 130 bytes per triangle; on symmetric shapes 300 more per thread at work, and 200 where many totals tie.
 StartTriangle find_start_triangle(const DualGraph& graph, std::span<const double> areas,
                                   std::span<const std::uint32_t> indices,
