@@ -71,8 +71,8 @@ TEST(Csv, HasAColumnForEveryField) {
   const Table rows = read_csv(text);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].size(),
-            19 + 4 + 5 + 2 * 7 + 3u);  // 19 plain with signal and bounds as one each, 4 and 5 more for
-                                       // them, 2 x 7 ratings, 3
+            19 + 4 + 5 + 2 * 7 + 4u);  // 19 plain with signal and bounds as one each, 4 and 5 more for
+                                       // them, 2 x 7 ratings, 4
   EXPECT_THAT(
       text, ::testing::StartsWith("index,asset,node,mesh,source_triangles,degenerate_triangles,triangles,"));
   EXPECT_THAT(text, ::testing::HasSubstr(
@@ -80,7 +80,9 @@ TEST(Csv, HasAColumnForEveryField) {
                         "signal.searches,surface_area,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.min.x,bounds.min.y,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.max.z,distance,ratings.polygons_per_planar_group,"));
-  EXPECT_THAT(text, ::testing::HasSubstr(",relative_ratings.rendering_time,aggregate,color,not_analysed\n"));
+  EXPECT_THAT(text,
+              ::testing::HasSubstr(
+                  ",relative_ratings.rendering_time,aggregate,color,not_analysed,no_fourier_transform\n"));
 }
 
 TEST(Csv, QuotesCommasQuotesAndLineBreaks) {

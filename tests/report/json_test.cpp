@@ -132,6 +132,19 @@ TEST(Json, PrintsAbsentFiguresAsNull) {
   EXPECT_THAT(meshes[3]["not_analysed"].get<std::string>(), ::testing::HasSubstr("40 GiB"));
 }
 
+TEST(Json, SaysWhyOneRatingIsMissing) {
+  Fixture fixture = two_assets();
+  EXPECT_TRUE(parsed(fixture.report())["meshes"][0]["no_fourier_transform"].is_null());
+  fixture.assets[0].geometries[0].fourier_transform.reset();
+  fixture.assets[0].geometries[0].signal.reset();
+  fixture.assets[0].geometries[0].no_fourier_transform = "a signal has 3 samples, but 2 are the most";
+  const ordered_json mesh = parsed(fixture.report())["meshes"][0];
+  EXPECT_EQ(mesh["no_fourier_transform"], "a signal has 3 samples, but 2 are the most");
+  EXPECT_TRUE(mesh["ratings"]["fourier_transform"].is_null());
+  EXPECT_TRUE(mesh["not_analysed"].is_null());
+  EXPECT_FALSE(mesh["aggregate"].is_null());
+}
+
 TEST(Json, NeverPrintsWhatIsNotANumber) {
   Fixture fixture = two_assets();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -129,6 +129,14 @@ TEST(Table, DoesNotMarkARatingThatIsNotShown) {
   EXPECT_THAT(table(fixture.report(), {}), Not(HasSubstr("~")));
 }
 
+TEST(Table, CountsMeshesWithoutAFourierRating) {
+  Fixture fixture = two_assets();
+  fixture.assets[0].geometries[0].fourier_transform.reset();
+  fixture.assets[0].geometries[0].signal.reset();
+  fixture.assets[0].geometries[0].no_fourier_transform = "a signal is too long";
+  EXPECT_THAT(table(fixture.report(), {}), HasSubstr(", 2 meshes without a Fourier rating"));
+}
+
 TEST(GapPercent, IsABoundOfTwoDigits) {
   EXPECT_EQ(gap_percent(0.0131), "1.4 %");
   EXPECT_EQ(gap_percent(0.013), "1.3 %");

@@ -14,7 +14,7 @@ namespace scene_analyzer::surface_distances {
 inline constexpr std::size_t kLanes = 16;
 
 template <typename Distance>
-struct alignas(64) Lanes {
+struct alignas(kLanes * sizeof(Distance)) Lanes {
   std::array<Distance, kLanes> of;
 };
 
