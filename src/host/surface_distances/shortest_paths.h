@@ -25,8 +25,9 @@ class BasicShortestPaths {
     std::span<const Distance> length;
   };
   explicit BasicShortestPaths(const Arcs& arcs) { use(arcs); }
-  explicit BasicShortestPaths(const DualGraph& graph) requires std::same_as<Distance, double>
-      : BasicShortestPaths(Arcs{graph.first, graph.target, graph.length}) {}
+  template <std::same_as<Distance> Length = double>
+  explicit BasicShortestPaths(const DualGraph& graph)
+      : BasicShortestPaths(Arcs{graph.first, graph.target, std::span<const Length>(graph.length)}) {}
   BasicShortestPaths() = default;
 
   // Changes to the part of another graph that nodes [0, nodes) and the arcs between them make.
