@@ -104,6 +104,37 @@ TEST(Patches, TakeEveryOpenTriangleOnceAndStayWithinReach) {
   EXPECT_EQ(seen, numbers_up_to(500));
 }
 
+// The same distances with a node in the middle of every third arc, as on edges with more than two triangles.
+DualGraph with_edge_nodes(const DualGraph& graph) {
+  struct Arc {
+    std::uint32_t target;
+    double length;
+  };
+  std::vector<std::vector<Arc>> arcs(graph.triangles);
+  for (std::uint32_t v = 0; v < graph.triangles; ++v)
+    for (std::uint32_t arc = graph.first[v]; arc < graph.first[v + 1]; ++arc) {
+      const std::uint32_t target = graph.target[arc];
+      const double length = graph.length[arc];
+      if ((v + target) % 3 != 0) {
+        arcs[v].push_back({target, length});
+      } else if (v < target) {
+        const auto middle = static_cast<std::uint32_t>(arcs.size());
+        arcs.push_back({{v, length / 2}, {target, length / 2}});
+        arcs[v].push_back({middle, length / 2});
+        arcs[target].push_back({middle, length / 2});
+      }
+    }
+  DualGraph result{.triangles = graph.triangles, .first = {0}, .target = {}, .length = {}};
+  for (const auto& from : arcs) {
+    for (const Arc& arc : from) {
+      result.target.push_back(arc.target);
+      result.length.push_back(arc.length);
+    }
+    result.first.push_back(static_cast<std::uint32_t>(result.target.size()));
+  }
+  return result;
+}
+
 class PatchBounds : public testing::Test {
  protected:
   // Every mesh with its true totals and what 16 searches prove.
@@ -112,25 +143,34 @@ class PatchBounds : public testing::Test {
     for (const auto& mesh : meshes()) {
       SCOPED_TRACE(mesh.name);
       const TwinSurface twin(mesh);
-      const DualGraph graph = graph_of(twin);
-      Candidates candidates(graph.triangles);
-      std::vector<double> distances(graph.nodes());
-      ShortestPaths paths(graph);
-      for (std::uint32_t i = 0; i < kLandmarks; ++i) {
-        const std::uint32_t source = i * (graph.triangles / kLandmarks);
-        paths.run(source, distances);
-        candidates.set_total(source, total_distance(graph, distances));
-        candidates.bound_all(total_distance(graph, distances), distances);
-      }
-      const double unit = 4 * *std::ranges::max_element(distances) / kUnreached<Units>;
       const std::vector<double>& truth = all_totals(twin, mesh.name);
-      PatchBounder bounder(graph, unit);
-      for (const std::size_t size :
-           {std::size_t{5}, std::size_t{16}, std::size_t{300}, std::size_t{1} << 20}) {
-        Patch patch = candidates.open();
-        patch.resize(std::min(size, patch.size()));
-        if (!patch.empty()) visit(bounder, patch, candidates, truth);
-      }
+      const DualGraph graph = graph_of(twin);
+      visit_patches(graph, truth, visit);
+      visit_patches(with_edge_nodes(graph), truth, visit);
+    }
+  }
+
+  template <typename Visit>
+  static void visit_patches(const DualGraph& graph, const std::vector<double>& truth, Visit visit) {
+    Candidates candidates(graph.triangles);
+    std::vector<double> distances(graph.nodes());
+    ShortestPaths paths(graph);
+    for (std::uint32_t i = 0; i < kLandmarks; ++i) {
+      const std::uint32_t source = i * (graph.triangles / kLandmarks);
+      paths.run(source, distances);
+      candidates.set_total(source, total_distance(graph, distances));
+      candidates.bound_all(total_distance(graph, distances), distances);
+    }
+    PatchBounder bounder(graph, 4 * *std::ranges::max_element(distances) / kUnreached<Units>);
+    Patch near = candidates.open();
+    if (near.empty()) return;
+    const std::uint32_t middle = near[near.size() / 2];
+    std::ranges::stable_sort(
+        near, {}, [&](std::uint32_t v) { return v == middle ? -1 : candidates.about_distance(v, middle); });
+    for (const std::size_t size : {5U, 16U, 40U, 120U, 255U, 300U, 1U << 20}) {
+      Patch patch = near;
+      patch.resize(std::min(size, patch.size()));
+      visit(bounder, patch, candidates, truth);
     }
   }
 
@@ -147,15 +187,33 @@ class PatchBounds : public testing::Test {
 };
 
 TEST_F(PatchBounds, AreNeverBelowTheTruth) {
-  for_each_case([](PatchBounder& bounder, const Patch& patch, const Candidates& candidates,
-                   const std::vector<double>& truth) {
+  std::size_t bounded = 0, split = 0;
+  for_each_case([&](PatchBounder& bounder, const Patch& patch, const Candidates& candidates,
+                    const std::vector<double>& truth) {
     for (const double share : {0.0, 0.2, 1.0}) {
-      const PatchResult result = bounder.bound(patch, candidates, share);
-      if (result.too_wide)
+      const PatchResult result = bounder.bound(patch, candidates, {.slack_share = share});
+      if (result.too_wide) {
         EXPECT_TRUE(result.totals.empty() && result.bounds.empty());
-      else
-        expect_true(result, patch, truth);
+        continue;
+      }
+      expect_true(result, patch, truth);
+      ++bounded;
+      if (result.work > 30 * truth.size()) ++split;  // more than the first level can have taken
     }
+  });
+  EXPECT_GT(bounded, 100U);
+  EXPECT_GT(split, 30U);
+}
+
+TEST_F(PatchBounds, EndWithTheWorkAllowedOrWhenStopped) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  for_each_case([&](PatchBounder& bounder, const Patch& patch, const Candidates& candidates,
+                    const std::vector<double>& truth) {
+    const std::uint64_t all = bounder.bound(patch, candidates, {}).work;
+    const PatchResult some = bounder.bound(patch, candidates, {.slack_share = 0.1, .most_work = all / 2});
+    for (const auto& [v, bound] : some.bounds) EXPECT_GE(bound, truth[v] * (1 - 1e-12));
+    EXPECT_TRUE(bounder.bound(patch, candidates, {.stop = stopped.get_token()}).bounds.empty());
   });
 }
 
@@ -241,13 +299,54 @@ TEST(StartTriangle, OfABookTakesFewSearches) {
   EXPECT_LE(start.searches, 20);
 }
 
+// As long as lengths are >= 0, whatever they are.
+TEST(StartTriangle, OfTrianglesAllInOnePlaceIsTheSmallest) {
+  for (const std::uint32_t count : {2U, 3U, 500U}) {
+    reference::SurfaceArcs arcs;
+    arcs.from.resize(count);
+    for (std::uint32_t v = 1; v < count; ++v) {
+      arcs.from[v - 1].push_back({v, 0});
+      arcs.from[v].push_back({v - 1, 0});
+    }
+    std::vector<double> areas(count, 2);
+    areas[1] = 1;
+    const StartTriangle start = find_start_triangle(graph_of(arcs), areas, numbers_up_to(count));
+    EXPECT_EQ(start.node, 1U);
+    EXPECT_EQ(start.total_distance, 0);
+    EXPECT_EQ(start.gap, 0);
+  }
+}
+
+// Copies in one place cannot be told apart by their distances to anything.
+TEST(StartTriangle, OfManyCopiesInOnePlaceIsFound) {
+  constexpr std::uint32_t kCopies = 600;
+  test_meshes::Random random(3);
+  reference::SurfaceArcs arcs;
+  arcs.from.resize(kCopies + 40);
+  const auto connect = [&](std::uint32_t a, std::uint32_t b, double length) {
+    arcs.from[a].push_back({b, length});
+    arcs.from[b].push_back({a, length});
+  };
+  for (std::uint32_t v = 1; v < 40; ++v) connect(v - 1, v, 1 + random.unit());
+  for (std::uint32_t v = 40; v < 40 + kCopies; ++v) connect(0, v, 1);
+  std::vector<double> totals;
+  for (std::uint32_t v = 0; v < arcs.from.size(); ++v) totals.push_back(reference::total_distance(arcs, v));
+  const StartTriangle start =
+      find_start_triangle(graph_of(arcs), std::vector(arcs.from.size(), 1.0), numbers_up_to(kCopies + 40));
+  EXPECT_EQ(start.node, std::ranges::max_element(totals) - totals.begin());
+  EXPECT_EQ(start.gap, 0);
+}
+
 TEST(StartTriangle, CanBeCancelled) {
   const TwinSurface twin(test_meshes::torus(60, 40));
   std::stop_source stop;
   std::atomic<int> calls = 0;
+  double last = 0;
   const StartSearchOptions options{.stop = stop.get_token(), .progress = [&](double fraction) {
                                      EXPECT_GE(fraction, 0);
                                      EXPECT_LE(fraction, 1);
+                                     EXPECT_GE(fraction, last) << "never back";
+                                     last = fraction;
                                      if (++calls == 2) stop.request_stop();
                                    }};
   EXPECT_THROW(start_of(twin, options), Cancelled);

@@ -111,17 +111,23 @@ TEST(LaneSearch, SaysWhereUnitsDoNotReach) {
 }
 
 // Sources all over a lattice have no order of rows in common.
-TEST(LaneSearch, RefusesToSearchTogetherWhatHasNothingInCommon) {
+TEST(LaneSearch, GivesUpSearchingTogetherWhatHasNothingInCommon) {
   const Ordered ordered(test_meshes::torus(120, 60));
   std::vector<std::uint32_t> row;
-  const auto rows = order_by_distance<Units>(ordered.graph, {ordered.distances, ordered.extent()},
-                                             4 * ordered.extent() / kUnreached<Units>, row);
+  const auto rows = order_by_distance<double>(ordered.graph, {ordered.distances, 0}, 1, row);
   test_meshes::Random random(9);
-  LaneSearch<Units> search;
-  const auto near = rows_of({5}, row);
-  EXPECT_TRUE(search.try_together(rows, near, 0));
-  EXPECT_FALSE(search.try_together(rows, rows_of(random_nodes(kLanes, ordered.graph.nodes(), random), row),
-                                   ordered.graph.nodes()));
+  const auto nodes = random_nodes(kLanes, ordered.graph.nodes(), random);
+  LaneSearch<double> search;
+  EXPECT_FALSE(search.try_together(rows, rows_of(nodes, row), 0));
+  search.run(rows, rows_of(nodes, row), 0);
+  for (std::size_t lane = 0; lane < kLanes; lane += 5) {
+    const auto expected = reference::surface_distances(ordered.twin.arcs, nodes[lane]);
+    for (std::uint32_t v = 0; v < ordered.graph.nodes(); ++v)
+      ASSERT_EQ(search.distances()[row[v]].of[lane], expected[v]);
+  }
+  EXPECT_TRUE(search.try_together(rows, rows_of({5}, row), 0)) << "nothing is left of the search given up";
+  for (std::uint32_t v = 0; v < ordered.graph.nodes(); ++v)
+    ASSERT_EQ(search.distances()[row[v]].of[0], ordered.distances[v]);
 }
 
 TEST(LaneGraph, IsInTheOrderOfDistancesInWholeBands) {

@@ -68,7 +68,7 @@ class Candidates {
 
   // Distance to the nearest source, of triangles that are none.
   float nearest(std::uint32_t v) const { return nearest_[v]; }
-  // Not searched, and farthest from all that are.
+  // Not a source, and farthest from all that are.
   std::uint32_t farthest() const {
     return static_cast<std::uint32_t>(std::ranges::max_element(nearest_) - nearest_.begin());
   }

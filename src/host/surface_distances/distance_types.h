@@ -8,7 +8,7 @@
 #include <limits>
 
 // The widest vectors that the processor has, chosen when the program starts. Results do not depend on it:
-// there are only sums and comparisons, lane by lane.
+// lanes are added, multiplied and compared one by one, and nothing is fused (-ffp-contract=off).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WIDEST_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <numeric>
 
 namespace scene_analyzer::surface_distances {
@@ -53,7 +54,8 @@ std::vector<std::uint32_t> bands_of(const RowOrder& order, double mean_arc) {
   const std::span<const double> distances = order.distances;
   const double farthest = distances.empty() ? 0 : *std::ranges::max_element(distances);
   const double width = std::max(kBandPerRadius * order.radius, kLeastArcsPerBand * mean_arc);
-  const double most = std::clamp(farthest / width, 0.0, static_cast<double>(distances.size()) / 64);
+  const double most =
+      std::clamp(width > 0 ? farthest / width : 0, 0.0, static_cast<double>(distances.size()) / 64);
   const double bands_per_length = farthest > 0 ? most / farthest : 0;
   std::vector<std::uint32_t> rows(static_cast<std::size_t>(most) + 1, 0);
   for (const double distance : distances)

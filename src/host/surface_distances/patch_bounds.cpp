@@ -16,8 +16,8 @@ constexpr std::size_t kParts = 4;  // that a patch is split into
 constexpr std::size_t kLeastTogether = 6;
 // Smaller patches are bounded however wide they are.
 constexpr std::size_t kLeastTooWide = 256;
-// Splits in a row, after which the rest is bounded as it is: patches that do not fall apart would go on for
-// ever.
+// Splits in a row, after which the rest is bounded as it is: patches that do not fall apart lose 16 members
+// at a time.
 constexpr unsigned kMostSplits = 8;
 
 std::uint32_t count_within(std::span<const double> distances, double reach) {
@@ -48,8 +48,8 @@ double PatchBounder::radius_of(const Patch& patch) const {
   return radius;
 }
 
-PatchResult PatchBounder::bound(const Patch& patch, const Candidates& candidates, double slack_share) {
-  slack_share_ = slack_share;
+PatchResult PatchBounder::bound(const Patch& patch, const Candidates& candidates, const Rules& rules) {
+  rules_ = rules;
   std::vector<Member> members;
   std::uint32_t near = 0;
   const LaneGraph<Units> rows = begin(patch, candidates, members, near);
@@ -95,13 +95,14 @@ PatchResult PatchBounder::measure_together(const Patch& patch) {
 }
 
 void PatchBounder::refine(const LaneGraph<Units>& rows, std::vector<Member> members, std::uint32_t near) {
+  if (result_.work > rules_.most_work || rules_.stop.stop_requested()) return;
   if (depth_ == kMostSplits && members.size() > kLanes) return refine_in_groups(rows, members, near);
   const std::vector<std::size_t> sources = spread_sources(members);
   const std::vector<Member> open = search(rows, members, near, sources);
   if (open.empty()) return;
   double highest = 0;
   for (const std::size_t source : sources) highest = std::max(highest, members[source].upper);
-  split(rows, open, sources.size(), std::max(0.0, best_ * (1 - kTie) - highest));
+  split(rows, open, std::max(0.0, best_ * (1 - kTie) - highest));
 }
 
 void PatchBounder::refine_in_groups(const LaneGraph<Units>& rows, const std::vector<Member>& members,
@@ -142,7 +143,10 @@ std::vector<PatchBounder::Member> PatchBounder::search(const LaneGraph<Units>& r
   for (const std::size_t source : sources) source_rows.push_back(members[source].row);
   if (depth_ == 0 && members.size() >= kLeastTooWide) {
     result_.too_wide = !search_.try_together(rows, source_rows, near);
-    if (result_.too_wide) return {};
+    if (result_.too_wide) {
+      result_.work += std::uint64_t{kLanes} * rows.rows();  // about what was tried
+      return {};
+    }
   } else {
     search_.run(rows, source_rows, near);
   }
@@ -184,9 +188,8 @@ void PatchBounder::raise_best(Member& member) {
   result_.work += graph_.nodes();
 }
 
-void PatchBounder::split(const LaneGraph<Units>& rows, const std::vector<Member>& open, std::size_t sources,
-                         double slack) {
-  const std::size_t parts = std::min({kParts, sources, (open.size() + kLanes - 1) / kLanes});
+void PatchBounder::split(const LaneGraph<Units>& rows, const std::vector<Member>& open, double slack) {
+  const std::size_t parts = std::min(kParts, (open.size() + kLanes - 1) / kLanes);
   std::vector<std::vector<Member>> part(parts);
   std::vector<std::uint32_t> kept;
   for (const Member& member : open) {
@@ -196,7 +199,7 @@ void PatchBounder::split(const LaneGraph<Units>& rows, const std::vector<Member>
         member);
     kept.push_back(member.row);
   }
-  const double tolerance = slack_share_ * slack / (graph_.triangles * unit_);
+  const double tolerance = rules_.slack_share * slack / (graph_.triangles * unit_);
   const Contraction smaller =
       contract(rows, search_.distances(), kept,
                static_cast<Units>(std::min<double>(tolerance, kUnreached<Units> - 1)));

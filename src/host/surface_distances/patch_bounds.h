@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -21,17 +23,22 @@ struct PatchResult {
   bool too_wide = false;   // nothing was found, for shortest paths have too little in common
 };
 
-// Scratch of one thread. Memory: about 300 bytes per node. Bounds are searched for in units of `unit`: four
-// times the component's extent have to fit DistanceTraits<Units>.
+// Scratch of one thread. Memory: about 300 bytes per node, 200 more once something was measured. Bounds are
+// searched for in units of `unit`: four times the component's extent have to fit DistanceTraits<Units>.
 class PatchBounder {
  public:
   PatchBounder(const DualGraph& graph, double unit)
       : graph_(graph), unit_(unit), paths_(graph), distances_(graph.nodes()) {}
 
-  // Bounds all of `patch` on smaller and smaller graphs, unless it is too wide. `slack_share`: of the way
-  // from the patch's totals to the best, the part that making graphs smaller may use up. Reads `candidates`
-  // only, as do all of these.
-  PatchResult bound(const Patch& patch, const Candidates& candidates, double slack_share);
+  struct Rules {
+    // Of the way from the patch's totals to the best, the part that making graphs smaller may use up.
+    double slack_share = 0;
+    std::uint64_t most_work = std::numeric_limits<std::uint64_t>::max();  // sources x rows, about
+    std::stop_token stop = {};
+  };
+  // Bounds all of `patch` on smaller and smaller graphs, unless it is too wide; what is left when the work is
+  // done or a stop is asked for gets no new bound. Reads `candidates` only, as do all of these.
+  PatchResult bound(const Patch& patch, const Candidates& candidates, const Rules& rules);
   // Looks at 16 spread members: true total of the most promising one, bounds for all.
   PatchResult sample(const Patch& patch, const Candidates& candidates);
   // True totals; at most kLanes nodes.
@@ -53,8 +60,7 @@ class PatchBounder {
                              const std::vector<std::size_t>& sources);
   void raise_best(Member& member);
   std::vector<std::size_t> spread_sources(const std::vector<Member>& members) const;
-  void split(const LaneGraph<Units>& rows, const std::vector<Member>& open, std::size_t sources,
-             double slack);
+  void split(const LaneGraph<Units>& rows, const std::vector<Member>& open, double slack);
 
   const DualGraph& graph_;
   double unit_;
@@ -66,7 +72,7 @@ class PatchBounder {
   const Candidates* candidates_ = nullptr;
   PatchResult result_;
   double best_ = 0;
-  double slack_share_ = 0;
+  Rules rules_;
   unsigned depth_ = 0;  // how often the graph at hand was contracted
 };
 

@@ -38,7 +38,7 @@ std::vector<std::uint32_t> highest_bounds(const std::vector<std::uint32_t>& open
     sources.push_back(source);
     for (std::size_t i = 0; i < open.size(); ++i)
       expected[i] = std::min(expected[i], candidates.best() + n * candidates.about_distance(open[i], source));
-    expected[highest] = 0;
+    expected[highest] = -1;
   }
   return sources;
 }

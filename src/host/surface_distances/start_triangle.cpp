@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "surface_distances/candidates.h"
@@ -16,8 +18,8 @@ namespace {
 // Sizes of what is done side by side, fixed so that the number of threads changes nothing.
 constexpr std::size_t kSourcesPerRound = 4;
 constexpr std::size_t kPatchesPerRound = 8;
-// Sources that alternate with the triangle farthest from all before: they see the whole shape, and are the
-// landmarks.
+// Sources that alternate with the triangle farthest from all before: they see the whole shape. The first 16,
+// hubs among them, are the landmarks.
 constexpr std::size_t kScouts = 16;
 // A search that closes a smaller part of the triangles is no longer worth its time...
 constexpr double kWorthwhile = 0.002;
@@ -33,7 +35,11 @@ constexpr double kNarrower = 0.75;       // what becomes of the reach when patch
 constexpr double kLeastReach = 0.002;
 // Of the way from a patch's totals to the best, the part that smaller graphs may use up: first much, which
 // is fast and leaves a few, then little.
-constexpr double kSlackShares[] = {0.15, 0.03, 0.01};
+struct Pass {
+  double slack_share;
+  double begin, end;  // as progress
+};
+constexpr Pass kPasses[] = {{0.15, 0.4, 0.8}, {0.03, 0.8, 0.9}, {0.01, 0.9, 0.95}};
 // From the best triangles so far, patches shrink towards still better ones.
 constexpr std::size_t kClimbers = 2;
 constexpr double kClimbFrom = 0.15;  // of the component's extent
@@ -54,18 +60,20 @@ class StartSearch {
 
   StartTriangle run() {
     scout();
+    if (extent_ == 0) return all_in_one_place();
     search_best_first(kScouts);
     climb();
     search_widely();
     search_best_first(0);
-    for (const double share : kSlackShares) bound_patches(share);
+    for (const Pass& pass : kPasses) bound_patches(pass);
     search_remaining();
     settle_ties();
     return result();
   }
 
  private:
-  bool spent() const { return work_ >= options_.most_searches * graph_.nodes(); }
+  std::uint64_t budget() const { return options_.most_searches * graph_.nodes(); }
+  bool spent() const { return work_ >= budget(); }
 
   template <typename Task>
   void side_by_side(std::size_t count, Task task) {
@@ -94,6 +102,7 @@ class StartSearch {
     work_ += graph_.nodes();
     const auto triangles = std::span(distances_[0]).first(graph_.triangles);
     extent_ = *std::ranges::max_element(triangles);
+    if (extent_ == 0) return;
     patch_reach_ = kPatchReach * extent_;
     search({static_cast<std::uint32_t>(std::ranges::max_element(triangles) - triangles.begin())});
     search(hubs(graph_));
@@ -105,7 +114,7 @@ class StartSearch {
     std::vector<std::uint32_t> open = candidates_.open();
     for (std::size_t searches = 1; !open.empty() && !spent();) {
       std::vector<std::uint32_t> sources = highest_bounds(open, candidates_, kSourcesPerRound);
-      const std::uint32_t far = candidates_.farthest();
+      const std::uint32_t far = searches < scouts ? candidates_.farthest() : sources.front();
       if (searches < scouts && !candidates_.is_searched(far) &&
           std::ranges::find(sources, far) == sources.end())
         sources.back() = far;
@@ -113,7 +122,7 @@ class StartSearch {
       searches += sources.size();
       const std::size_t before = open.size();
       open = candidates_.open();
-      report(open.size());
+      report(0, 0.4, open.size(), graph_.triangles);
       const double worthwhile = kWorthwhile * static_cast<double>(sources.size()) * graph_.triangles;
       if (searches > scouts && open.size() > kFew && static_cast<double>(before - open.size()) < worthwhile)
         return;
@@ -129,7 +138,7 @@ class StartSearch {
       const std::vector<std::uint32_t> sources = far_from_all(open, candidates_, kSourcesPerRound);
       search(sources);
       open = candidates_.open();
-      report(open.size());
+      report(0, 0.4, open.size(), graph_.triangles);
       searches += sources.size();
       if (searches < kScouts) continue;
       const double worthwhile = kWorthwhileWidely * static_cast<double>(searches) * graph_.triangles;
@@ -143,7 +152,8 @@ class StartSearch {
   void climb() {
     if (candidates_.open().size() <= kFew) return;
     std::vector<std::uint32_t> at = highest_apart(candidates_, kClimbers, kClimbFrom * extent_);
-    for (double reach = kClimbFrom * extent_; !at.empty() && !spent(); reach *= kShrink) {
+    for (double reach = kClimbFrom * extent_; reach >= kLeastReach * extent_ && !at.empty() && !spent();
+         reach *= kShrink) {
       std::vector<Patch> patches;
       for (const std::uint32_t centre : at) patches.push_back(patch_around(centre, candidates_, reach));
       bound(patches,
@@ -161,7 +171,7 @@ class StartSearch {
     return highest;
   }
 
-  void bound_patches(double slack_share) {
+  void bound_patches(const Pass& pass) {
     std::vector<std::uint32_t> unbounded = candidates_.open();
     const std::size_t all = unbounded.size();
     if (all < kLeastOpen) return;
@@ -170,12 +180,14 @@ class StartSearch {
           unbounded, candidates_, {.least = kLeastInPatch, .most = patch_most_, .reach = patch_reach_},
           kPatchesPerRound);
       const auto results = bound(patches, [&](PatchBounder& bounder, const Patch& patch) {
-        return bounder.bound(patch, candidates_, slack_share);
+        return bounder.bound(patch, candidates_,
+                             {.slack_share = pass.slack_share,
+                              .most_work = (budget() - work_) / patches.size(),
+                              .stop = options_.stop});
       });
       narrow(patches, results, unbounded);
       std::erase_if(unbounded, [&](std::uint32_t v) { return !candidates_.is_open(v); });
-      if (options_.progress)
-        options_.progress(1 - static_cast<double>(unbounded.size()) / static_cast<double>(all));
+      report(pass.begin, pass.end, unbounded.size(), all);
     }
   }
 
@@ -212,11 +224,14 @@ class StartSearch {
 
   // True totals for all that may be larger than the best.
   void search_remaining() {
+    std::size_t all = 1;
     while (!spent()) {
       std::vector<std::uint32_t> above = candidates_.open();
       std::erase_if(
           above, [&](std::uint32_t v) { return candidates_.upper(v) <= candidates_.best() * (1 + kLevel); });
       if (above.empty()) return;
+      all = std::max(all, above.size());
+      report(0.95, 1, above.size(), all);
       bound(take_patches(above, candidates_, {.least = 1, .most = kLanes, .reach = kGroupReach * extent_},
                          kPatchesPerRound),
             [&](PatchBounder& bounder, const Patch& patch) { return bounder.measure(patch); });
@@ -244,9 +259,16 @@ class StartSearch {
         if (candidates_.is_searched(v)) break;
         if (unknown.size() < kSourcesPerRound) unknown.push_back(v);
       }
-      if (unknown.empty()) return;
+      ties_settled_ = unknown.empty();
+      if (ties_settled_) return;
       search(unknown);
     }
+  }
+
+  StartTriangle all_in_one_place() const {
+    std::vector<std::uint32_t> all(graph_.triangles);
+    std::iota(all.begin(), all.end(), 0U);
+    return {.node = by_preference(std::move(all)).front(), .total_distance = 0, .gap = 0, .searches = 1};
   }
 
   StartTriangle result() const {
@@ -254,15 +276,19 @@ class StartSearch {
     double highest = 0;
     for (const std::uint32_t v : candidates_.open()) highest = std::max(highest, candidates_.upper(v));
     const double best = candidates_.best();
-    const bool proven = highest <= best * (1 + kLevel);
+    const double open_gap = highest <= best * (1 + kLevel) ? 0 : highest / best - 1;
     return {.node = node,
             .total_distance = candidates_.upper(node),
-            .gap = proven || best == 0 ? 0 : highest / best - 1,
+            // Until ties are settled another triangle may be as far out, and be preferred.
+            .gap = ties_settled_ ? open_gap : std::max(open_gap, kTie),
             .searches = (work_ + graph_.nodes() - 1) / graph_.nodes()};
   }
 
-  void report(std::size_t open) const {
-    if (options_.progress) options_.progress(0.5 * (1 - static_cast<double>(open) / graph_.triangles));
+  // Progress from `begin` to `end` while `left` of `all` falls; never back.
+  void report(double begin, double end, std::size_t left, std::size_t all) {
+    const double part = 1 - static_cast<double>(std::min(left, all)) / static_cast<double>(all);
+    done_ = std::max(done_, begin + part * (end - begin));
+    if (options_.progress) options_.progress(done_);
   }
 
   const DualGraph& graph_;
@@ -274,6 +300,8 @@ class StartSearch {
   std::vector<std::unique_ptr<PatchBounder>> bounders_;  // per thread, made when needed
   std::vector<std::vector<double>> distances_;           // per source of a round
   double extent_ = 0;  // how far the farthest triangle is from some triangle
+  double done_ = 0;    // as progress
+  bool ties_settled_ = false;
   double patch_reach_ = 0;
   std::size_t patch_most_ = kMostInPatch;
   std::uint64_t work_ = 0;  // sources x rows

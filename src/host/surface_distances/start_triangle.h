@@ -38,8 +38,8 @@ struct StartSearchOptions {
 struct StartTriangle {
   std::uint32_t node = 0;
   double total_distance = 0;  // to all triangles of the component
-  double gap =
-      0;  // no triangle's total exceeds total_distance by more than this, relative; 0: proven the largest
+  // No triangle's total exceeds the largest found by more than this, relative; 0: proven to be as specified.
+  double gap = 0;
   std::uint64_t searches = 0;  // see most_searches
 };
 
