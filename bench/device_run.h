@@ -20,6 +20,7 @@
 
 namespace scene_analyzer::bench {
 
+// Everything that runs on the device, made once.
 using Kernels = pipeline::Measurer::Stages;
 
 // Where the time of one stage went: kernels in order of first use, then whatever the host did.

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "cases.h"
+#include "device_choice.h"
 #include "subject.h"
 #include "tables.h"
 
@@ -23,12 +24,6 @@ struct Measured {
   std::vector<KernelTable> kernels;
   bool failed = false;
 };
-
-gpu::DeviceOptions device_options() {
-  gpu::DeviceOptions options;
-  if (const char* selector = std::getenv("SCENE_ANALYZER_DEVICE")) options.selector = selector;
-  return options;
-}
 
 class Runner {
  public:

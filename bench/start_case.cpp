@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
 #include "gpu/recorder.h"
 #include "import/import.h"
+#include "reference/surface_distances.h"
 #include "stages.h"
 #include "surface_distances/dual_graph.h"
 #include "surface_distances/shortest_paths.h"
@@ -50,10 +52,14 @@ Surface surface_of(const pipeline::Measurer::Stages& stages, const TestMesh& mes
   return result;
 }
 
+unsigned all_threads() {
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
 // Totals of every `step`-th triangle, on all threads.
 std::vector<double> totals_of_all(const surface_distances::DualGraph& graph, std::uint32_t count,
                                   std::uint32_t step) {
-  const unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned threads = all_threads();
   std::vector<surface_distances::ShortestPaths> paths(threads, surface_distances::ShortestPaths(graph));
   std::vector<std::vector<double>> distances(threads, std::vector<double>(graph.nodes()));
   std::vector<double> totals(count);
@@ -64,20 +70,15 @@ std::vector<double> totals_of_all(const surface_distances::DualGraph& graph, std
   return totals;
 }
 
-// As specified: of equal totals the smaller area, then the lower index.
+// Node of the start triangle, with all totals known.
 std::uint32_t winner_of(const std::vector<double>& totals, const Surface& surface) {
-  const double best = *std::ranges::max_element(totals);
-  const auto ties = [&](std::uint32_t v) { return totals[v] >= best * (1 - 1e-9); };
-  double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t v = 0; v < totals.size(); ++v)
-    if (ties(v)) least = std::min(least, surface.areas[v]);
-  std::uint32_t winner = 0, index = std::numeric_limits<std::uint32_t>::max();
-  for (std::uint32_t v = 0; v < totals.size(); ++v)
-    if (ties(v) && surface.areas[v] <= least * (1 + 1e-9) && surface.component.triangles[v] < index) {
-      winner = v;
-      index = surface.component.triangles[v];
-    }
-  return winner;
+  const std::vector<std::uint32_t>& index = surface.component.triangles;
+  std::vector<std::uint32_t> nodes(totals.size());
+  std::iota(nodes.begin(), nodes.end(), 0U);
+  std::ranges::sort(nodes, {}, [&](std::uint32_t node) { return index[node]; });
+  std::vector<double> by_index;
+  for (const std::uint32_t node : nodes) by_index.push_back(totals[node]);
+  return reference::choose_start(nodes, by_index, surface.areas);
 }
 
 // Triangles into four, by the middles of their edges.
@@ -109,7 +110,7 @@ StartRow StartBench::run(const TestMesh& mesh) {
   row.seconds = elapsed_of([&] {
                   start = surface_distances::find_start_triangle(
                       graph, surface.areas, surface.component.triangles,
-                      {.threads = std::max(1U, std::thread::hardware_concurrency())});
+                      {.threads = all_threads()});
                 }).wall;
   row.searches = start.searches;
   row.gap = start.gap;

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <string>
 
-#include "adjacency/adjacency.h"
-#include "geometry/geometry.h"
 #include "gpu/device.h"
 #include "pipeline/stages.h"
 #include "support/meshes.h"

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "device_choice.h"
 #include "fourier_share.h"
 #include "gpu/device.h"
 #include "import/import.h"
@@ -54,9 +55,7 @@ int run(int argc, char** argv) {
       quick = true;
     else
       files.emplace_back(argv[i]);
-  gpu::DeviceOptions options;
-  if (const char* selector = std::getenv("SCENE_ANALYZER_DEVICE")) options.selector = selector;
-  gpu::Device device(options);
+  gpu::Device device(device_options());
   print_machine(device.info());
   fmt::print(
       "\n| mesh | triangles | searches | seconds | all pairs, seconds | times faster | gap |\n"

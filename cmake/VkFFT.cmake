@@ -53,8 +53,8 @@ function(target_use_vkfft target source)
   make_vkfft_headers(${folder})
   target_include_directories(${target} SYSTEM PRIVATE ${folder} ${GLSLANG_FOLDER})
   # Macros of ours that expand inside the header are not the system's to the compiler.
-  # The header is one generator of shaders: optimising it takes a minute and saves a millisecond per plan, and
-  # UndefinedBehaviorSanitizer would take four minutes to look at code that is not ours.
+  # The header is one generator of shaders, which runs a few times per program and takes a compiler minutes to
+  # optimise; and what UndefinedBehaviorSanitizer finds in code that is not ours, nobody here can mend.
   set(options -w -O1)
   if(SCENE_ANALYZER_SANITIZE)
     list(APPEND options -fno-sanitize=undefined)

@@ -22,18 +22,6 @@ double distance(const mesh::Vector3& a, const mesh::Vector3& b) {
   return std::sqrt(x * x + y * y + z * z);
 }
 
-// The highest total; of equal ones the smallest area, of equal ones again the lowest index.
-std::uint32_t choose_start(const std::vector<std::uint32_t>& members, const std::vector<double>& totals,
-                           const std::vector<double>& areas) {
-  const double highest = *std::max_element(totals.begin(), totals.end());
-  double smallest = kInfinity;
-  for (std::size_t i = 0; i < members.size(); ++i)
-    if (totals[i] >= highest * (1 - kTie)) smallest = std::min(smallest, areas[members[i]]);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    if (totals[i] >= highest * (1 - kTie) && areas[members[i]] <= smallest * (1 + kTie)) return members[i];
-  return members.front();
-}
-
 std::vector<double> order_by_distance(std::vector<std::uint32_t> members,
                                       const std::vector<double>& distances,
                                       const std::vector<double>& areas) {
@@ -68,6 +56,17 @@ int compare(const SurfaceComponent& a, const SurfaceComponent& b, double unit) {
 }
 
 }  // namespace
+
+std::uint32_t choose_start(std::span<const std::uint32_t> members, std::span<const double> totals,
+                           std::span<const double> areas) {
+  const double highest = *std::max_element(totals.begin(), totals.end());
+  double smallest = kInfinity;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (totals[i] >= highest * (1 - kTie)) smallest = std::min(smallest, areas[members[i]]);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (totals[i] >= highest * (1 - kTie) && areas[members[i]] <= smallest * (1 + kTie)) return members[i];
+  return members.front();
+}
 
 SurfaceArcs surface_arcs(const Geometry& geometry, const TriangleMeasures& triangles,
                          const Adjacency& adjacency) {

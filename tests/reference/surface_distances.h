@@ -23,6 +23,12 @@ struct SurfaceArcs {
 SurfaceArcs surface_arcs(const Geometry& geometry, const TriangleMeasures& triangles,
                          const Adjacency& adjacency);
 
+// The start triangle of a component: that of `members`, which come by index, with the highest total; of
+// equal ones (within 1e-9) the smallest area, of equal ones again the first. `totals` per member, `areas` per
+// triangle.
+std::uint32_t choose_start(std::span<const std::uint32_t> members, std::span<const double> totals,
+                           std::span<const double> areas);
+
 // Infinity where there is no path. Dijkstra's algorithm with a binary heap.
 std::vector<double> surface_distances(const SurfaceArcs& arcs, std::uint32_t source);
 

@@ -106,32 +106,23 @@ TEST(Patches, TakeEveryOpenTriangleOnceAndStayWithinReach) {
 
 // The same distances with a node in the middle of every third arc, as on edges with more than two triangles.
 DualGraph with_edge_nodes(const DualGraph& graph) {
-  struct Arc {
-    std::uint32_t target;
-    double length;
-  };
-  std::vector<std::vector<Arc>> arcs(graph.triangles);
+  reference::SurfaceArcs arcs;
+  arcs.from.resize(graph.triangles);
   for (std::uint32_t v = 0; v < graph.triangles; ++v)
     for (std::uint32_t arc = graph.first[v]; arc < graph.first[v + 1]; ++arc) {
       const std::uint32_t target = graph.target[arc];
       const double length = graph.length[arc];
       if ((v + target) % 3 != 0) {
-        arcs[v].push_back({target, length});
+        arcs.from[v].push_back({target, length});
       } else if (v < target) {
-        const auto middle = static_cast<std::uint32_t>(arcs.size());
-        arcs.push_back({{v, length / 2}, {target, length / 2}});
-        arcs[v].push_back({middle, length / 2});
-        arcs[target].push_back({middle, length / 2});
+        const auto middle = static_cast<std::uint32_t>(arcs.from.size());
+        arcs.from.emplace_back();
+        connect(arcs, v, middle, length / 2);
+        connect(arcs, middle, target, length / 2);
       }
     }
-  DualGraph result{.triangles = graph.triangles, .first = {0}, .target = {}, .length = {}};
-  for (const auto& from : arcs) {
-    for (const Arc& arc : from) {
-      result.target.push_back(arc.target);
-      result.length.push_back(arc.length);
-    }
-    result.first.push_back(static_cast<std::uint32_t>(result.target.size()));
-  }
+  DualGraph result = graph_of(arcs);
+  result.triangles = graph.triangles;
   return result;
 }
 
@@ -304,10 +295,7 @@ TEST(StartTriangle, OfTrianglesAllInOnePlaceIsTheSmallest) {
   for (const std::uint32_t count : {2U, 3U, 500U}) {
     reference::SurfaceArcs arcs;
     arcs.from.resize(count);
-    for (std::uint32_t v = 1; v < count; ++v) {
-      arcs.from[v - 1].push_back({v, 0});
-      arcs.from[v].push_back({v - 1, 0});
-    }
+    for (std::uint32_t v = 1; v < count; ++v) connect(arcs, v - 1, v, 0);
     std::vector<double> areas(count, 2);
     areas[1] = 1;
     const StartTriangle start = find_start_triangle(graph_of(arcs), areas, numbers_up_to(count));
@@ -323,12 +311,8 @@ TEST(StartTriangle, OfManyCopiesInOnePlaceIsFound) {
   test_meshes::Random random(3);
   reference::SurfaceArcs arcs;
   arcs.from.resize(kCopies + 40);
-  const auto connect = [&](std::uint32_t a, std::uint32_t b, double length) {
-    arcs.from[a].push_back({b, length});
-    arcs.from[b].push_back({a, length});
-  };
-  for (std::uint32_t v = 1; v < 40; ++v) connect(v - 1, v, 1 + random.unit());
-  for (std::uint32_t v = 40; v < 40 + kCopies; ++v) connect(0, v, 1);
+  for (std::uint32_t v = 1; v < 40; ++v) connect(arcs, v - 1, v, 1 + random.unit());
+  for (std::uint32_t v = 40; v < 40 + kCopies; ++v) connect(arcs, 0, v, 1);
   std::vector<double> totals;
   for (std::uint32_t v = 0; v < arcs.from.size(); ++v) totals.push_back(reference::total_distance(arcs, v));
   const StartTriangle start =

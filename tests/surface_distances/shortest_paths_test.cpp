@@ -13,14 +13,12 @@ DualGraph random_graph(std::uint32_t nodes, std::uint32_t extra, std::uint64_t s
   test_meshes::Random random(seed);
   reference::SurfaceArcs arcs;
   arcs.from.resize(nodes);
-  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
-    const double l = length(random);
-    arcs.from[a].push_back({b, l});
-    arcs.from[b].push_back({a, l});
-  };
-  for (std::uint32_t v = 1; v < nodes; ++v) connect(v - 1, v);
-  for (std::uint32_t i = 0; i < extra; ++i)
-    connect(static_cast<std::uint32_t>(random.below(nodes)), static_cast<std::uint32_t>(random.below(nodes)));
+  const auto any_node = [&] { return static_cast<std::uint32_t>(random.below(nodes)); };
+  for (std::uint32_t v = 1; v < nodes; ++v) connect(arcs, v - 1, v, length(random));
+  for (std::uint32_t i = 0; i < extra; ++i) {
+    const std::uint32_t from = any_node(), to = any_node();
+    connect(arcs, from, to, length(random));
+  }
   return graph_of(arcs);
 }
 
@@ -66,16 +64,16 @@ TEST(ShortestPaths, GiveUpBucketsThatVisitNodesTooOften) {
   constexpr std::uint32_t kSteps = 2000;
   reference::SurfaceArcs arcs;
   arcs.from.resize(2 * kSteps + 1);
-  const auto connect = [&](std::uint32_t a, std::uint32_t b, double length) {
+  const auto lead = [&](std::uint32_t a, std::uint32_t b, double length) {
     arcs.from[a].push_back({b, length});
   };
   for (std::uint32_t i = 0; i < kSteps; ++i) {
     const double step = 1e-6 * (kSteps - i);
-    connect(2 * i, 2 * i + 2, step);
-    connect(2 * i, 2 * i + 1, 0);
-    connect(2 * i + 1, 2 * i + 2, step / 2);
+    lead(2 * i, 2 * i + 2, step);
+    lead(2 * i, 2 * i + 1, 0);
+    lead(2 * i + 1, 2 * i + 2, step / 2);
   }
-  connect(0, 2 * kSteps, 1e6);
+  lead(0, 2 * kSteps, 1e6);
   const DualGraph graph = graph_of(arcs);
   expect_dijkstra(graph, "ladder");
   ShortestPaths paths(graph);

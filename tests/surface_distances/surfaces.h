@@ -23,6 +23,11 @@ struct TwinSurface {
                                      stages.adjacency)) {}
 };
 
+inline void connect(reference::SurfaceArcs& arcs, std::uint32_t a, std::uint32_t b, double length) {
+  arcs.from[a].push_back({b, length});
+  arcs.from[b].push_back({a, length});
+}
+
 // Nodes in the order of `arcs`, all of them triangles.
 inline DualGraph graph_of(const reference::SurfaceArcs& arcs) {
   DualGraph graph{

@@ -5,6 +5,7 @@
 // beyond a limit of the device, is absent, never zero.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -109,5 +110,9 @@ struct AssetAnalysis {
   std::vector<FileFingerprint> files;
   std::vector<std::string> warnings;
 };
+
+inline bool is_beyond_a_limit(const AssetAnalysis& analysis) {
+  return std::ranges::any_of(analysis.geometries, [](const auto& one) { return is_beyond_a_limit(one); });
+}
 
 }  // namespace scene_analyzer::analysis

@@ -59,12 +59,6 @@ void log_outcome(const std::string& asset, const pipeline::Outcome& outcome, dou
                            outcome.from_file ? "read from its analysis file" : "measured", seconds));
 }
 
-bool beyond_a_limit(const analysis::AssetAnalysis& analysis) {
-  return std::ranges::any_of(analysis.geometries, [](const analysis::GeometryAnalysis& geometry) {
-    return is_beyond_a_limit(geometry);
-  });
-}
-
 pipeline::Outcome analyze_one(pipeline::Pipeline& pipeline, const std::string& asset, Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const auto report_step = [&](double fraction, const std::string& step) {
@@ -141,7 +135,7 @@ Analyses analyze_all(const AnalyzeRequest& request, LazyDevice& device) {
       progress.aside([&] { result.all_good = exports.log() && result.all_good; });
       if (outcome.analysis) {
         entry->second = result.assets.size();
-        result.all_good = result.all_good && !beyond_a_limit(*outcome.analysis);
+        result.all_good = result.all_good && !is_beyond_a_limit(*outcome.analysis);
         result.assets.push_back(std::move(*outcome.analysis));
       }
     } else if (entry->second != kFailed) {

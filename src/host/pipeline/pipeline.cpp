@@ -53,12 +53,6 @@ FileState state_of(const fs::path& file) {
   return {fs::file_size(file, ignored), fs::last_write_time(file, ignored)};
 }
 
-bool beyond_a_limit(const AssetAnalysis& analysis) {
-  return std::ranges::any_of(analysis.geometries, [](const analysis::GeometryAnalysis& geometry) {
-    return is_beyond_a_limit(geometry);
-  });
-}
-
 const std::string& name_of(const AssetAnalysis& analysis, std::size_t geometry) {
   static const std::string kUnused = "not placed by any node";
   const auto user = std::ranges::find(analysis.instances, geometry, &analysis::InstanceAnalysis::geometry);
@@ -85,7 +79,7 @@ void describe(const AssetAnalysis& analysis, std::vector<std::string>& messages)
   for (const std::string& warning : analysis.warnings)
     messages.push_back(fmt::format("{}: {}", analysis.asset, warning));
   describe_limits(analysis, messages);
-  if (beyond_a_limit(analysis)) return;
+  if (is_beyond_a_limit(analysis)) return;
   const auto has_triangles = [](const auto& geometry) { return geometry.triangles > 0; };
   if (std::ranges::any_of(analysis.geometries, has_triangles)) return;
   const auto has_source = [](const auto& geometry) { return geometry.source_triangles > 0; };
@@ -206,7 +200,7 @@ void Pipeline::store(const fs::path& asset, bool unchanged, const Progress& repo
   AssetAnalysis& analysis = *outcome.analysis;
   // What did not fit may fit on another device, or when other programs have ended: such a result is not the
   // asset's.
-  if (beyond_a_limit(analysis)) return;
+  if (is_beyond_a_limit(analysis)) return;
   report(kMeasured, "writing the analysis file");
   if (!unchanged) {
     outcome.messages.push_back(

@@ -74,7 +74,8 @@ class Candidates {
   }
   // Distance to the first source.
   float landmark_distance(std::uint32_t v) const { return landmarks_[v][0]; }
-  // About the distance of two triangles, never more: the largest difference of their distances to landmarks.
+  // About the distance of two triangles, and but for rounding never more: the largest difference of their
+  // distances to landmarks.
   float about_distance(std::uint32_t a, std::uint32_t b) const {
     float most = 0;
     for (std::size_t i = 0; i < kLandmarks; ++i)

@@ -25,7 +25,6 @@ struct DistanceTraits;
 template <>
 struct DistanceTraits<double> {
   using Sum = double;
-  using Mask = std::uint64_t;  // as wide as a distance
   static constexpr double kUnreached = std::numeric_limits<double>::infinity();
 };
 
@@ -33,7 +32,6 @@ struct DistanceTraits<double> {
 template <>
 struct DistanceTraits<Units> {
   using Sum = std::uint64_t;
-  using Mask = std::uint32_t;
   static constexpr Units kUnreached = std::numeric_limits<std::int32_t>::max();
 };
 

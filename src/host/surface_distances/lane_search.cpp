@@ -114,6 +114,7 @@ inline bool spread_bands(const Front<Distance>& front, std::span<const std::uint
   return true;
 }
 
+// Compilers cannot clone templates for processors, hence two functions, and the same below.
 WIDEST_VECTORS bool spread(const Front<double>& front, std::span<const std::uint32_t> bands,
                            std::uint64_t most_steps) {
   return spread_bands(front, bands, most_steps);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "surface_distances/contraction.h"
+#include "surface_distances/sources.h"
 
 namespace scene_analyzer::surface_distances {
 namespace {
@@ -26,42 +28,41 @@ std::uint32_t count_within(std::span<const double> distances, double reach) {
 
 }  // namespace
 
-LaneGraph<Units> PatchBounder::begin(const Patch& patch, const Candidates& candidates,
-                                     std::vector<Member>& members, std::uint32_t& near) {
-  candidates_ = &candidates;
-  best_ = candidates.best();
-  result_ = {};
+template <typename Distance>
+PatchBounder::Rows<Distance> PatchBounder::order_around(const Patch& patch, double unit) {
   paths_.run(patch.front(), distances_);
-  result_.work = graph_.nodes();
-  const double radius = radius_of(patch);
-  std::vector<std::uint32_t> row_of_node;
-  LaneGraph<Units> rows = order_by_distance<Units>(graph_, {distances_, radius}, unit_, row_of_node);
-  for (const std::uint32_t node : patch)
-    members.push_back({.row = row_of_node[node], .node = node, .upper = candidates.upper(node)});
-  near = count_within(distances_, kNearReach * radius);
+  double radius = 0;
+  for (const std::uint32_t node : patch) radius = std::max(radius, distances_[node]);
+  Rows<Distance> rows;
+  rows.graph = order_by_distance<Distance>(graph_, {distances_, radius}, unit, rows.of_node);
+  rows.near = count_within(distances_, kNearReach * radius);
   return rows;
 }
 
-double PatchBounder::radius_of(const Patch& patch) const {
-  double radius = 0;
-  for (const std::uint32_t node : patch) radius = std::max(radius, distances_[node]);
-  return radius;
+PatchBounder::Rows<Units> PatchBounder::begin(const Patch& patch, const Candidates& candidates,
+                                              std::vector<Member>& members) {
+  candidates_ = &candidates;
+  best_ = candidates.best();
+  result_ = {};
+  result_.work = graph_.nodes();
+  Rows<Units> rows = order_around<Units>(patch, unit_);
+  for (const std::uint32_t node : patch)
+    members.push_back({.row = rows.of_node[node], .node = node, .upper = candidates.upper(node)});
+  return rows;
 }
 
 PatchResult PatchBounder::bound(const Patch& patch, const Candidates& candidates, const Rules& rules) {
   rules_ = rules;
   std::vector<Member> members;
-  std::uint32_t near = 0;
-  const LaneGraph<Units> rows = begin(patch, candidates, members, near);
-  refine(rows, std::move(members), near);
+  const Rows<Units> rows = begin(patch, candidates, members);
+  refine(rows.graph, std::move(members), rows.near);
   return std::exchange(result_, {});
 }
 
 PatchResult PatchBounder::sample(const Patch& patch, const Candidates& candidates) {
   std::vector<Member> members;
-  std::uint32_t near = 0;
-  const LaneGraph<Units> rows = begin(patch, candidates, members, near);
-  for (const Member& open : search(rows, members, near, spread_sources(members)))
+  const Rows<Units> rows = begin(patch, candidates, members);
+  for (const Member& open : search(rows.graph, members, rows.near, spread_sources(members)))
     result_.bounds.emplace_back(open.node, open.upper);
   return std::exchange(result_, {});
 }
@@ -81,13 +82,11 @@ PatchResult PatchBounder::measure_apart(const Patch& patch) {
 }
 
 PatchResult PatchBounder::measure_together(const Patch& patch) {
-  paths_.run(patch.front(), distances_);
-  const double radius = radius_of(patch);
-  std::vector<std::uint32_t> row_of_node, sources;
-  const LaneGraph<double> rows = order_by_distance<double>(graph_, {distances_, radius}, 1, row_of_node);
-  for (const std::uint32_t node : patch) sources.push_back(row_of_node[node]);
-  exact_search_.run(rows, sources, count_within(distances_, kNearReach * radius));
-  const std::array<double, kLanes> totals = exact_search_.totals(rows);
+  const Rows<double> rows = order_around<double>(patch, 1);
+  std::vector<std::uint32_t> sources;
+  for (const std::uint32_t node : patch) sources.push_back(rows.of_node[node]);
+  exact_search_.run(rows.graph, sources, rows.near);
+  const std::array<double, kLanes> totals = exact_search_.totals(rows.graph);
   PatchResult result{.totals = {}, .bounds = {}, .work = (1 + patch.size()) * graph_.nodes()};
   for (std::size_t lane = 0; lane < patch.size(); ++lane)
     result.totals.emplace_back(patch[lane], totals[lane]);
@@ -116,23 +115,19 @@ void PatchBounder::refine_in_groups(const LaneGraph<Units>& rows, const std::vec
 
 // Members far from each other; all of them when they fit.
 std::vector<std::size_t> PatchBounder::spread_sources(const std::vector<Member>& members) const {
-  std::vector<std::size_t> sources;
   if (members.size() <= kLanes) {
-    for (std::size_t i = 0; i < members.size(); ++i) sources.push_back(i);
-    return sources;
+    std::vector<std::size_t> all(members.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
   }
-  std::vector<float> nearest(members.size(), std::numeric_limits<float>::infinity());
-  auto next =
-      static_cast<std::size_t>(std::ranges::max_element(members, {}, &Member::upper) - members.begin());
-  while (sources.size() < kLanes) {
-    sources.push_back(next);
-    for (std::size_t i = 0; i < members.size(); ++i)
-      nearest[i] =
-          std::min(nearest[i], candidates_->about_distance(members[i].node, members[sources.back()].node));
-    nearest[next] = -1;
-    next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
-  }
-  return sources;
+  std::vector<std::uint32_t> nodes;
+  nodes.reserve(members.size());
+  for (const Member& member : members) nodes.push_back(member.node);
+  // Far from everything before, and the most promising one most of all, so that it is the first.
+  std::vector<float> nearest(members.size(), std::numeric_limits<float>::max());
+  const auto highest = std::ranges::max_element(members, {}, &Member::upper) - members.begin();
+  nearest[static_cast<std::size_t>(highest)] = std::numeric_limits<float>::infinity();
+  return farthest_apart(nodes, std::move(nearest), *candidates_, kLanes);
 }
 
 // Records what a search from the sources proves; returns the members that may still be the start.

@@ -49,11 +49,18 @@ class PatchBounder {
     std::uint32_t row, node;
     double upper;
   };
-  LaneGraph<Units> begin(const Patch& patch, const Candidates& candidates, std::vector<Member>& members,
-                         std::uint32_t& near);
+  // The graph's nodes as rows, by their distance from a patch's middle.
+  template <typename Distance>
+  struct Rows {
+    LaneGraph<Distance> graph;
+    std::vector<std::uint32_t> of_node;
+    std::uint32_t near = 0;  // rows that the patch reaches, about
+  };
+  template <typename Distance>
+  Rows<Distance> order_around(const Patch& patch, double unit);
+  Rows<Units> begin(const Patch& patch, const Candidates& candidates, std::vector<Member>& members);
   PatchResult measure_apart(const Patch& patch);
   PatchResult measure_together(const Patch& patch);
-  double radius_of(const Patch& patch) const;
   void refine(const LaneGraph<Units>& rows, std::vector<Member> members, std::uint32_t near);
   void refine_in_groups(const LaneGraph<Units>& rows, const std::vector<Member>& members, std::uint32_t near);
   std::vector<Member> search(const LaneGraph<Units>& rows, std::vector<Member>& members, std::uint32_t near,

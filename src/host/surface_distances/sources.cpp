@@ -43,19 +43,27 @@ std::vector<std::uint32_t> highest_bounds(const std::vector<std::uint32_t>& open
   return sources;
 }
 
+std::vector<std::size_t> farthest_apart(const std::vector<std::uint32_t>& nodes, std::vector<float> nearest,
+                                        const Candidates& candidates, std::size_t count) {
+  std::vector<std::size_t> taken;
+  while (taken.size() < std::min(count, nodes.size())) {
+    const auto farthest = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
+    taken.push_back(farthest);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      nearest[i] = std::min(nearest[i], candidates.about_distance(nodes[i], nodes[farthest]));
+    nearest[farthest] = -1;
+  }
+  return taken;
+}
+
 std::vector<std::uint32_t> far_from_all(const std::vector<std::uint32_t>& open, const Candidates& candidates,
                                         std::size_t count) {
-  std::vector<float> distance;
-  distance.reserve(open.size());
-  for (const std::uint32_t v : open) distance.push_back(candidates.nearest(v));
+  std::vector<float> nearest;
+  nearest.reserve(open.size());
+  for (const std::uint32_t v : open) nearest.push_back(candidates.nearest(v));
   std::vector<std::uint32_t> sources;
-  while (sources.size() < std::min(count, open.size())) {
-    const auto farthest = static_cast<std::size_t>(std::ranges::max_element(distance) - distance.begin());
-    sources.push_back(open[farthest]);
-    for (std::size_t i = 0; i < open.size(); ++i)
-      distance[i] = std::min(distance[i], candidates.about_distance(open[i], open[farthest]));
-    distance[farthest] = -1;
-  }
+  for (const std::size_t i : farthest_apart(open, std::move(nearest), candidates, count))
+    sources.push_back(open[i]);
   return sources;
 }
 

@@ -45,8 +45,8 @@ constexpr std::size_t kClimbers = 2;
 constexpr double kClimbFrom = 0.15;  // of the component's extent
 constexpr double kShrink = 0.5;
 constexpr double kGroupReach = 0.05;  // of triangles that are searched from together
-constexpr double kLevel =
-    1e-11;  // totals closer than this to the best cannot raise it by anything that counts
+// Totals closer than this to the best cannot raise it by anything that counts.
+constexpr double kLevel = 1e-11;
 
 class StartSearch {
  public:
@@ -114,10 +114,7 @@ class StartSearch {
     std::vector<std::uint32_t> open = candidates_.open();
     for (std::size_t searches = 1; !open.empty() && !spent();) {
       std::vector<std::uint32_t> sources = highest_bounds(open, candidates_, kSourcesPerRound);
-      const std::uint32_t far = searches < scouts ? candidates_.farthest() : sources.front();
-      if (searches < scouts && !candidates_.is_searched(far) &&
-          std::ranges::find(sources, far) == sources.end())
-        sources.back() = far;
+      if (searches < scouts) visit_far_end(sources);
       search(sources);
       searches += sources.size();
       const std::size_t before = open.size();
@@ -127,6 +124,12 @@ class StartSearch {
       if (searches > scouts && open.size() > kFew && static_cast<double>(before - open.size()) < worthwhile)
         return;
     }
+  }
+
+  void visit_far_end(std::vector<std::uint32_t>& sources) const {
+    const std::uint32_t far = candidates_.farthest();
+    if (!candidates_.is_searched(far) && std::ranges::find(sources, far) == sources.end())
+      sources.back() = far;
   }
 
   // From open triangles far from all sources: once the best is good, each closes all around it that is
@@ -220,7 +223,7 @@ class StartSearch {
     return results;
   }
   // Twice the room for the farthest pair: no two triangles are farther apart than twice the extent.
-  double unit() const { return extent_ > 0 ? 4 * extent_ / kUnreached<Units> : 1; }
+  double unit() const { return 4 * extent_ / kUnreached<Units>; }
 
   // True totals for all that may be larger than the best.
   void search_remaining() {

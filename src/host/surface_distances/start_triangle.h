@@ -5,9 +5,8 @@
 //   1. |F(v) - F(u)| <= n d(u, v): a search from u bounds all others. Enough for scans, whose extremities
 //   stand out.
 //   2. On symmetric shapes all F are nearly equal. There a climb finds a good best first, searches far from
-//   each other
-//      close what is clearly worse, and patches of triangles near each other are bounded on contracted graphs
-//      (contraction.h), a few searches for hundreds of triangles.
+//   each other close what is clearly worse, and patches of triangles near each other are bounded on contracted
+//   graphs (contraction.h), a few searches for hundreds of triangles.
 //   3. What is left is searched for real.
 // Totals are compared as doubles with the best one less 1e-9, within which totals count as equal: that covers
 // their rounding (below 1e-12) and keeps all ties. Bounds of patches are counted in whole units, lengths
@@ -31,8 +30,8 @@ struct StartSearchOptions {
   std::uint64_t most_searches = 20000;
   unsigned threads = 1;       // the result does not depend on it
   std::stop_token stop = {};  // throws Cancelled soon after it was asked for
-  std::function<void(double fraction)> progress =
-      {};  // about how much is done; called from the calling thread
+  // About how much is done; called from the calling thread.
+  std::function<void(double fraction)> progress = {};
 };
 
 struct StartTriangle {
