@@ -32,7 +32,7 @@ void print_fourier_share(gpu::Device& device) {
   pipeline::Measurer measurer(device);
   const auto measure = [&](const pipeline::SignalSink& sink) {
     analysis::AssetAnalysis analysis;
-    measurer.measure(scene, {}, analysis::MetricSet().set(), {}, analysis, {}, sink);
+    measurer.measure({.scene = scene, .analysis = analysis, .signals = sink});
   };
   std::vector<std::vector<double>> signals;
   measure([&](std::uint32_t, const analysis::SignalSpectrum& signal) {

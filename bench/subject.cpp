@@ -31,7 +31,7 @@ std::vector<analysis::GeometryAnalysis> Subject::measure() {
   // Start triangles would hide everything else, and the twin's take all pairs.
   const auto stages =
       analysis::MetricSet().set().reset(analysis::index_of(analysis::Metric::kFourierTransform));
-  bench_.measurer.measure(scene_, {}, stages, {}, analysis);
+  bench_.measurer.measure({.scene = scene_, .analysis = analysis, .metrics = stages});
   return std::move(analysis.geometries);
 }
 

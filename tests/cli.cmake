@@ -3,7 +3,7 @@ test_binary(cli
           selftest_test.cpp
           run_program.cpp analyze_test.cpp histograms_test.cpp signals_test.cpp bad_input_test.cpp
           commands_test.cpp device_limit_test.cpp
-  LINK cli reference nlohmann_json::nlohmann_json util)
+  LINK cli reference test_meshes nlohmann_json::nlohmann_json util)
 # The layer is opened by Vulkan's loader, which finds it through the manifest.
 set(test_layers ${CMAKE_BINARY_DIR}/test-layers)
 add_library(small_device_layer MODULE cli/small_device_layer.cpp)

@@ -10,6 +10,7 @@
 
 #include "cli/assets.h"
 #include "cli/run_program.h"
+#include "support/meshes.h"
 #include "support/temporary_folder.h"
 
 namespace scene_analyzer {
@@ -201,6 +202,28 @@ TEST_F(AnalyzeTest, EyeAndWeightsReachTheRatings) {
   EXPECT_EQ(document["meshes"][1]["ratings"]["distance"], 1);
   EXPECT_EQ(document["meshes"][0]["aggregate"], 0);
   EXPECT_EQ(document["meshes"][1]["aggregate"], 1);
+}
+
+TEST_F(AnalyzeTest, EveryAssetKeepsItsPlaceWhateverBecomesOfTheOthers) {
+  // The torus' start triangle is still searched for when the assets behind it are done.
+  folder_.write("torus.obj", obj_of(test_meshes::torus(100, 60), "torus"));
+  folder_.write("cube.obj", cube_obj());
+  folder_.write("bad.obj", "no model");
+  folder_.write("leg.obj", leg_obj());
+  const ProgramResult result =
+      analyze({"--json", "-", "torus.obj", "bad.obj", "cube.obj", "torus.obj", "leg.obj", "bad.obj"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(complaints(result), ElementsAre(HasSubstr("bad.obj")));
+  const json document = json::parse(result.out);
+  ASSERT_EQ(document["meshes"].size(), 4U);
+  const std::vector<std::string> expected = {"torus.obj", "cube.obj", "torus.obj", "leg.obj"};
+  for (std::size_t row = 0; row < expected.size(); ++row) {
+    const json& mesh = document["meshes"][row];
+    EXPECT_EQ(mesh["asset"], expected[row]);
+    const json alone = analyze_json({"--no-cache", expected[row]})["meshes"][0];
+    EXPECT_EQ(mesh["ratings"]["fourier_transform"], alone["ratings"]["fourier_transform"]);
+    EXPECT_EQ(mesh["signal"], alone["signal"]);
+  }
 }
 
 TEST_F(AnalyzeTest, AnAssetGivenTwiceHasItsRowsTwice) {

@@ -9,7 +9,9 @@
 
 namespace scene_analyzer {
 
-inline std::string obj_of(const cli::BuiltInMesh& mesh, const std::string& name) {
+// A cli::BuiltInMesh or a test_meshes::TestMesh.
+template <typename Mesh>
+std::string obj_of(const Mesh& mesh, const std::string& name) {
   std::string text = fmt::format("o {}\n", name);
   for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
     text += fmt::format("v {} {} {}\n", mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);

@@ -31,16 +31,16 @@ TEST(LogLevel, QuietAndVerboseExcludeEachOther) {
 }
 
 TEST(ProgressText, SharesOfAllAssets) {
-  const ProgressState state{.asset = 1, .assets = 4, .fraction = 0.5, .name = "room.glb", .step = "areas"};
+  const ProgressState state{.asset = 1, .assets = 4, .done = 1.5, .name = "room.glb", .step = "areas"};
   EXPECT_EQ(progress_line(state), "progress: 37%, asset 2 of 4, room.glb: areas");
   EXPECT_EQ(progress_bar(state, 0), " 37% [#########               ] 2/4 room.glb: areas");
-  EXPECT_EQ(progress_bar({.asset = 0, .assets = 1, .fraction = 7, .name = "a", .step = "b"}, 0),
+  EXPECT_EQ(progress_bar({.asset = 0, .assets = 1, .done = 7, .name = "a", .step = "b"}, 0),
             "100% [########################] 1/1 a: b");
 }
 
 TEST(ProgressText, FitsTheTerminalWithoutCuttingCharacters) {
   const ProgressState state{
-      .asset = 0, .assets = 1, .fraction = 0, .name = "\xc3\xa9\xc3\xa9\xc3\xa9", .step = ""};
+      .asset = 0, .assets = 1, .done = 0, .name = "\xc3\xa9\xc3\xa9\xc3\xa9", .step = ""};
   const std::string whole = progress_bar(state, 0);
   for (std::size_t width = 1; width <= whole.size() + 2; ++width) {
     const std::string cut = progress_bar(state, width);
@@ -66,7 +66,7 @@ TEST(Progress, ShortRunsAreSilent) {
   EXPECT_EQ(captured([] {
               Progress progress(true, 1);
               progress.start_asset(0, "room.glb");
-              progress.update(0.5, "areas");
+              progress.update(0, 0.5, "areas");
             }),
             "");
 }
@@ -75,12 +75,17 @@ TEST(Progress, LongRunsSayWhatTheyDoUnlessQuiet) {
   const auto run = [](bool enabled) {
     return captured([&] {
       Progress progress(enabled, 2, std::chrono::milliseconds(10));
+      progress.start_asset(0, "hall.glb");
+      progress.update(0, 0.3, "start triangles");
       progress.start_asset(1, "room.glb");
-      progress.update(0.5, "areas");
+      progress.update(1, 0.6, "areas");
+      progress.finish_asset(0);
+      progress.update(0, 0.5, "late");
+      progress.update(1, 0.4, "areas");
       std::this_thread::sleep_for(std::chrono::seconds(1));
     });
   };
-  EXPECT_EQ(run(true), "progress: 75%, asset 2 of 2, room.glb: areas\n");
+  EXPECT_EQ(run(true), "progress: 80%, asset 2 of 2, room.glb: areas\n");
   EXPECT_EQ(run(false), "");
 }
 

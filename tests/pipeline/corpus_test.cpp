@@ -46,7 +46,7 @@ class MeasureCorpus : public test::GpuTest {
           continue;
         }
         analysis::AssetAnalysis analysis;
-        measurer.measure(scene, {}, analysis::MetricSet().set(), {}, analysis);
+        measurer.measure({.scene = scene, .analysis = analysis});
         all_pairs += expect_agrees_with_twin(scene, {}, analysis);
         ++measured;
         meshes += analysis.instances.size();

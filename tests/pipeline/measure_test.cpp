@@ -9,6 +9,7 @@
 #include "gpu/faults.h"
 #include "pipeline/compare.h"
 #include "pipeline/geometry_table.h"
+#include "pipeline/pending_measurement.h"
 #include "reference/placement.h"
 #include "support/gpu_test.h"
 #include "support/scenes.h"
@@ -38,7 +39,7 @@ class MeasureTest : public test::GpuTest {
   AssetAnalysis measure(const mesh::Scene& scene, const analysis::Parameters& parameters = {},
                         MetricSet metrics = MetricSet().set()) {
     AssetAnalysis analysis;
-    measurer().measure(scene, parameters, metrics, {}, analysis);
+    measurer().measure({.scene = scene, .analysis = analysis, .parameters = parameters, .metrics = metrics});
     return analysis;
   }
 
@@ -212,6 +213,66 @@ TEST_F(MeasureTest, AMeshThatDoesNotFitIsReportedAndTheOthersAreMeasured) {
   EXPECT_EQ(analysis.geometries[1].triangles, 192U);
 }
 
+// Everything that is stored, field by field the same.
+void expect_same(const AssetAnalysis& found, const AssetAnalysis& expected) {
+  ASSERT_EQ(found.geometries.size(), expected.geometries.size());
+  for (std::size_t i = 0; i < found.geometries.size(); ++i) {
+    const analysis::GeometryAnalysis &one = found.geometries[i], &other = expected.geometries[i];
+    EXPECT_EQ(one.triangles, other.triangles);
+    EXPECT_EQ(one.components, other.components);
+    EXPECT_EQ(one.cooccurrence_contrast, other.cooccurrence_contrast);
+    EXPECT_EQ(one.planar_group_variation, other.planar_group_variation);
+    EXPECT_EQ(one.fourier_transform, other.fourier_transform);
+    EXPECT_EQ(one.signal, other.signal);
+    EXPECT_EQ(one.not_analysed, other.not_analysed);
+  }
+}
+
+TEST_F(MeasureTest, OneSceneIsMeasuredWhileTheHostSearchesForAnother) {
+  const std::vector<mesh::Scene> scenes = {
+      test::scene_of({test_meshes::torus(40, 30), test_meshes::cube()}),
+      test::scene_of({test_meshes::geosphere(12)}), test::scene_of({TestMesh{}}),
+      test::scene_of({test_meshes::heightfield(30, 0.5, 2), test_meshes::four_sided_tube(3)})};
+  std::vector<AssetAnalysis> found(scenes.size());
+  std::vector<std::unique_ptr<PendingMeasurement>> pending;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    pending.push_back(measurer().start({.scene = scenes[i], .analysis = found[i]}));
+  for (const std::size_t i : {2U, 0U, 3U, 1U}) {
+    pending[i]->finish();
+    EXPECT_FALSE(pending[i]->is_searching());
+    expect_same(found[i], measure(scenes[i]));
+  }
+}
+
+TEST_F(MeasureTest, APendingMeasurementCanBeDropped) {
+  const mesh::Scene scene = test::scene_of({test_meshes::torus(120, 80)}),
+                    other = test::scene_of({test_meshes::cube()});
+  AssetAnalysis dropped;
+  measurer().start({.scene = scene, .analysis = dropped}).reset();
+  EXPECT_EQ(dropped.geometries.at(0).triangles, 19200U);
+  EXPECT_EQ(dropped.geometries.at(0).fourier_transform, std::nullopt);
+  expect_agrees_with_twin(other, {}, measure(other));
+}
+
+TEST_F(MeasureTest, ProgressOfManyBatchesNeverFalls) {
+  // Sheared instances are meshes of their own, in a batch of their own.
+  std::vector<mesh::Matrix4> worlds;
+  for (int i = 0; i < 4; ++i) worlds.push_back(placed({1, 0.5 * i, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}));
+  const mesh::Scene scene = placed_scene(test_meshes::torus(20, 12), worlds);
+  for (const std::uint32_t allocations : {3U, 25U, 60U, 100000U}) {
+    double last = 0;
+    const auto progress = [&](double fraction, const std::string&) {
+      EXPECT_GE(fraction, last);
+      last = fraction;
+    };
+    AssetAnalysis analysis;
+    gpu::faults(device()).allocations_until_failure = allocations;
+    measurer().measure({.scene = scene, .analysis = analysis, .progress = progress});
+    gpu::faults(device()) = {};
+    EXPECT_NEAR(last, 1, 1e-9) << allocations;
+  }
+}
+
 // A signal that cannot be transformed costs its mesh that rating and nothing else.
 TEST_F(MeasureTest, AMeshWithoutASpectrumKeepsItsOtherRatings) {
   const mesh::Scene scene =
@@ -220,11 +281,11 @@ TEST_F(MeasureTest, AMeshWithoutASpectrumKeepsItsOtherRatings) {
   Measurer limited(device(), {.longest = 200});
   std::vector<std::uint32_t> with_signal;
   AssetAnalysis found;
-  limited.measure(scene, {}, MetricSet().set(), {}, found, {},
-                  [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
-                    with_signal.push_back(geometry);
-                    EXPECT_EQ(signal.magnitudes.size(), signal.areas.size() / 2 + 1);
-                  });
+  const auto sink = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
+    with_signal.push_back(geometry);
+    EXPECT_EQ(signal.magnitudes.size(), signal.areas.size() / 2 + 1);
+  };
+  limited.measure({.scene = scene, .analysis = found, .signals = sink});
   EXPECT_EQ(with_signal, (std::vector<std::uint32_t>{1, 2}));
   ASSERT_EQ(found.geometries.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gpu/error.h"
+#include "pipeline/pending_analysis.h"
 #include "support/temporary_folder.h"
 
 namespace scene_analyzer::pipeline {
@@ -209,6 +210,32 @@ TEST_F(PipelineTest, DamagedFilesAreComputedAgainWithAMessage) {
                 ElementsAre(AllOf(HasSubstr("strip.obj.analysis"), HasSubstr("computed again"))));
     EXPECT_EQ(TemporaryFolder::read(file), whole) << "the file is not replaced by a good one";
   }
+}
+
+TEST_F(PipelineTest, AssetsMayBeStartedBeforeOthersAreFinished) {
+  Pipeline pipeline(options_, shared_device);
+  const std::vector<fs::path> assets = {strip(), folder_.write("bad.obj", "no model"),
+                                        folder_.write("other.obj", kStrip), folder_.path() / "missing.obj"};
+  std::vector<std::unique_ptr<PendingAnalysis>> pending;
+  for (const fs::path& asset : assets) pending.push_back(pipeline.start(asset));
+  EXPECT_FALSE(fs::exists(folder_.path() / "strip.obj.analysis")) << "stored before it was finished";
+  for (const std::size_t i : {1U, 2U, 0U, 3U}) {
+    const Outcome outcome = pipeline.finish(std::move(pending[i]));
+    EXPECT_EQ(outcome.analysis.has_value(), i == 0 || i == 2) << outcome.error;
+    if (outcome.analysis) {
+      EXPECT_TRUE(outcome.analysis->geometries.at(0).fourier_transform);
+      EXPECT_TRUE(analyze_from_file(assets[i]).from_file);
+    } else {
+      EXPECT_THAT(outcome.error, HasSubstr(assets[i].filename().string()));
+    }
+  }
+}
+
+TEST_F(PipelineTest, AnAssetThatIsDroppedLeavesNoAnalysisFile) {
+  Pipeline pipeline(options_, shared_device);
+  pipeline.start(strip()).reset();
+  EXPECT_FALSE(fs::exists(folder_.path() / "strip.obj.analysis"));
+  EXPECT_TRUE(pipeline.analyze(strip()).analysis);
 }
 
 TEST_F(PipelineTest, FoldersThatCannotBeWrittenAreNamedOnce) {

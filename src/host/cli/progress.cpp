@@ -20,8 +20,7 @@ constexpr const char* kWipeLine = "\r\x1b[K";
 
 double overall(const ProgressState& state) {
   const double assets = static_cast<double>(std::max<std::size_t>(state.assets, 1));
-  return std::clamp((static_cast<double>(state.asset) + std::clamp(state.fraction, 0.0, 1.0)) / assets, 0.0,
-                    1.0);
+  return std::clamp(state.done / assets, 0.0, 1.0);
 }
 
 int percent(const ProgressState& state) {
@@ -49,7 +48,7 @@ std::string progress_line(const ProgressState& state) {
 }
 
 Progress::Progress(bool enabled, std::size_t assets, std::chrono::milliseconds silence)
-    : bar_(is_terminal(STDERR_FILENO)), silence_(silence) {
+    : bar_(is_terminal(STDERR_FILENO)), silence_(silence), assets_(assets) {
   state_.assets = assets;
   if (enabled) thread_ = std::jthread([this](const std::stop_token& stop) { draw_until_stopped(stop); });
 }
@@ -64,16 +63,29 @@ Progress::~Progress() {
 
 void Progress::start_asset(std::size_t asset, const std::string& name) {
   const std::lock_guard lock(mutex_);
+  assets_.at(asset).name = name;
   state_.asset = asset;
   state_.name = name;
-  state_.fraction = 0;
   state_.step.clear();
 }
 
-void Progress::update(double fraction, const std::string& step) {
+void Progress::update(std::size_t asset, double fraction, const std::string& step) {
   const std::lock_guard lock(mutex_);
-  state_.fraction = fraction;
+  raise(asset, fraction);
+  state_.asset = asset;
+  state_.name = assets_[asset].name;
   state_.step = step;
+}
+
+void Progress::finish_asset(std::size_t asset) {
+  const std::lock_guard lock(mutex_);
+  raise(asset, 1);
+}
+
+void Progress::raise(std::size_t asset, double fraction) {
+  const double more = std::max(0.0, std::clamp(fraction, 0.0, 1.0) - assets_.at(asset).done);
+  assets_[asset].done += more;
+  state_.done += more;
 }
 
 void Progress::aside(const std::function<void()>& print) {

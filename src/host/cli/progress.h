@@ -9,12 +9,13 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace scene_analyzer::cli {
 
 struct ProgressState {
   std::size_t asset = 0, assets = 1;  // which of how many
-  double fraction = 0;                // of this asset, [0,1]
+  double done = 0;                    // of all, counted in assets
   std::string name, step;             // file name; "planar groups"
 };
 
@@ -33,13 +34,20 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void start_asset(std::size_t asset, const std::string& name);  // asset counts from 0
-  void update(double fraction, const std::string& step);
+  // Assets count from 0; several may be under way.
+  void start_asset(std::size_t asset, const std::string& name);
+  void update(std::size_t asset, double fraction, const std::string& step);  // of this asset, [0,1]
+  void finish_asset(std::size_t asset);
 
   // Runs `print`, which writes to the terminal, with the bar out of the way.
   void aside(const std::function<void()>& print);
 
  private:
+  struct Asset {
+    std::string name;
+    double done = 0;
+  };
+  void raise(std::size_t asset, double fraction);
   void draw_until_stopped(const std::stop_token& stop);
   void wipe();
 
@@ -48,6 +56,7 @@ class Progress {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   ProgressState state_;
+  std::vector<Asset> assets_;
   bool drawn_ = false;
   std::jthread thread_;  // last: starts when all else is there, joins first
 };

@@ -133,9 +133,8 @@ std::vector<Check> run_selftest(gpu::Device& device) {
   const std::vector<BuiltInMesh> meshes = selftest_meshes();
   analysis::AssetAnalysis analysis;
   pipeline::Measurer measurer(device);
-  measurer.measure(
-      scene_of(meshes), analysis.parameters, analysis::MetricSet().set(), [](double, const std::string&) {},
-      analysis);
+  const mesh::Scene scene = scene_of(meshes);
+  measurer.measure({.scene = scene, .analysis = analysis});
   std::vector<GeometryAnalysis> measured;
   for (const auto& instance : analysis.instances)
     measured.push_back(analysis.geometries.at(instance.geometry));

@@ -65,11 +65,10 @@ void fill_signal(GeometryAnalysis& geometry, const surface_distances::Signal& si
 
 }  // namespace
 
-void BatchRun::run() {
+void BatchRun::run_on_device() {
   step_(0, "areas and adjacency");
   measure_geometry();
-  SignalSearch search;
-  if (wants(Metric::kFourierTransform)) search_signals(search);
+  if (wants(Metric::kFourierTransform)) search_signals();
   if (wants(Metric::kPolygonsPerPlanarGroup) || wants(Metric::kPlanarGroupVariation)) {
     step_(0.1, "planar groups");
     find_planar_groups();
@@ -82,17 +81,22 @@ void BatchRun::run() {
   }
   geometry_ = {};
   adjacency_ = {};
-  if (!search.started()) return;
-  step_(0.3, "start triangles");
-  const auto signals =
-      search.finish([&](double fraction) { step_(0.3 + 0.6 * fraction, "start triangles"); });
-  step_(0.9, "spectra");
-  transform_signals(signals);
 }
 
-void BatchRun::search_signals(SignalSearch& search) {
-  search.start(stages_.arcs.measure(stages_.device, geometry_, adjacency_), plan_,
-               parameters_.start_searches);
+void BatchRun::finish() {
+  if (search_.started()) {
+    step_(0.3, "start triangles");
+    const auto signals =
+        search_.finish([&](double fraction) { step_(0.3 + 0.6 * fraction, "start triangles"); });
+    step_(0.9, "spectra");
+    transform_signals(signals);
+  }
+  step_(1, "results");
+}
+
+void BatchRun::search_signals() {
+  search_.start(stages_.arcs.measure(stages_.device, geometry_, adjacency_), plan_,
+                parameters_.start_searches);
 }
 
 void BatchRun::transform_signals(const std::vector<surface_distances::Signal>& signals) {

@@ -10,33 +10,30 @@
 
 namespace scene_analyzer::pipeline {
 
-// What a run reads and fills, the same for all batches of a scene.
-struct Measurement {
-  const analysis::Parameters& parameters;
-  analysis::MetricSet metrics;
-  analysis::AssetAnalysis& analysis;
-  const HistogramSink& histograms;
-  const SignalSink& signals;
-};
-
 class BatchRun {
  public:
   // Part of the batch that is done in [0,1], and what comes next.
   using Step = std::function<void(double fraction, const char* what)>;
 
-  BatchRun(Measurer::Stages& stages, const PlannedBatch& plan, const Measurement& measurement,
-           const Step& step)
+  // `measurement` must outlive the run.
+  BatchRun(Measurer::Stages& stages, PlannedBatch plan, const Measurement& measurement, Step step)
       : stages_(stages),
-        plan_(plan),
+        plan_(std::move(plan)),
         parameters_(measurement.parameters),
         metrics_(measurement.metrics),
         analysis_(measurement.analysis),
         histograms_(measurement.histograms),
         signals_(measurement.signals),
-        step_(step) {}
+        step_(std::move(step)) {}
 
-  // Start triangles are searched on the host while the device goes on with the other stages.
-  void run();
+  // All stages that run on the device but the spectra, after which the batch holds none of its memory. Start
+  // triangles are searched for on the host meanwhile, and on when this returns. Throws gpu::OutOfMemory.
+  void run_on_device();
+  bool is_searching() const { return search_.is_running(); }
+  // Waits for the search; spectra.
+  void finish();
+
+  const PlannedBatch& plan() const { return plan_; }
 
  private:
   analysis::GeometryAnalysis& target(std::size_t mesh) {
@@ -45,7 +42,7 @@ class BatchRun {
   bool wants(analysis::Metric metric) const { return metrics_.test(analysis::index_of(metric)); }
 
   void measure_geometry();
-  void search_signals(SignalSearch& search);
+  void search_signals();
   void find_planar_groups();
   void bound_instances();
   void compare_areas();
@@ -56,16 +53,17 @@ class BatchRun {
                                                       const spectrum::MagnitudeSink& keep);
 
   Measurer::Stages& stages_;
-  const PlannedBatch& plan_;
+  const PlannedBatch plan_;
   const analysis::Parameters& parameters_;
   analysis::MetricSet metrics_;
   analysis::AssetAnalysis& analysis_;
   const HistogramSink& histograms_;
   const SignalSink& signals_;
-  const Step& step_;
+  const Step step_;
   geometry::Geometry geometry_;
   adjacency::Adjacency adjacency_;
   std::vector<interface::mesh::GeometryTotals> totals_;
+  SignalSearch search_;  // last: it reads the plan until it has ended
 };
 
 }  // namespace scene_analyzer::pipeline

@@ -3,7 +3,8 @@
 // Geometries are deduplicated first (instances under similarity transforms share one), cut into batches by
 // the device's memory and buffer limits, and each batch runs through welding, areas, adjacency, planar
 // groups, area classes and co-occurrence, while the host searches start triangles for the signals whose
-// spectra come last.
+// spectra come last. The device does not wait for that search: the next batch is measured meanwhile, and the
+// next scene may be.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +21,10 @@
 
 namespace scene_analyzer::pipeline {
 
-struct Measurement;
-struct PlannedBatch;
+class PendingMeasurement;
 
-// Called between steps: fraction done of the current asset in [0,1] and what is being done ("planar groups").
+// Called between steps: fraction done of the current asset in [0,1], never falling, and what is being done
+// ("planar groups").
 using Progress = std::function<void(double fraction, const std::string& step)>;
 
 // Takes the co-occurrence histogram of one geometry with a kept triangle, counts and bounds of which are
@@ -34,29 +35,38 @@ using HistogramSink = std::function<void(std::uint32_t geometry, const analysis:
 // above.
 using SignalSink = std::function<void(std::uint32_t geometry, const analysis::SignalSpectrum& signal)>;
 
+// What a measurement reads, and where its results go.
+struct Measurement {
+  const mesh::Scene& scene;           // must outlive the measurement,
+  analysis::AssetAnalysis& analysis;  // as must this: its `geometries` and `instances` are filled
+  analysis::Parameters parameters = {};
+  analysis::MetricSet metrics = analysis::MetricSet().set();  // counts, areas and bounds always
+  Progress progress = {};
+  HistogramSink histograms = {};  // without one there are none
+  SignalSink signals = {};
+};
+
 class Measurer {
  public:
   // Creates kernels lazily, once.
   explicit Measurer(gpu::Device& device, const spectrum::SpectrumLimits& limits = {});
   ~Measurer();
 
-  // Fills `geometries` and `instances` of `analysis` for the metrics in `metrics` (counts, areas and bounds
-  // always). A geometry beyond a limit of the device gets `not_analysed` with need and limit, one whose
-  // signal alone is beyond a limit `no_fourier_transform`.
-  // Throws gpu::DeviceLost. Cost: linear in triangles but for sorting areas; device memory under 200 bytes
-  // per triangle (about 250 where all edges have more than two triangles). Histograms are computed only for a
-  // sink. The Fourier transform's start triangles are searched on all processors of the host, see
+  // A geometry beyond a limit of the device gets `not_analysed` with need and limit, one whose signal alone
+  // is beyond a limit `no_fourier_transform`. Throws gpu::DeviceLost. Cost: linear in triangles but for
+  // sorting areas; device memory under 200 bytes per triangle (about 250 where all edges have more than two
+  // triangles). The Fourier transform's start triangles are searched on all processors of the host, see
   // surface_distances/start_triangle.h for cost and memory there.
-  void measure(const mesh::Scene& scene, const analysis::Parameters& parameters, analysis::MetricSet metrics,
-               const Progress& progress, analysis::AssetAnalysis& analysis,
-               const HistogramSink& histograms = {}, const SignalSink& signals = {});
+  void measure(Measurement measurement);
+
+  // The same in two steps: up to here all that the device can do without start triangles, which are searched
+  // until and beyond the return; then PendingMeasurement::finish. What is pending must be finished or
+  // destroyed before the Measurer.
+  std::unique_ptr<PendingMeasurement> start(Measurement measurement);
 
   struct Stages;  // kernels of every stage
 
  private:
-  void measure_batch(const PlannedBatch& plan, const Measurement& measurement,
-                     const std::function<void(double, const char*)>& step);
-
   std::unique_ptr<Stages> stages_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
+#include "pipeline/pending_analysis.h"
 
 namespace scene_analyzer::pipeline {
 namespace {
@@ -95,6 +96,19 @@ void add_empty_row(AssetAnalysis& analysis) {
   analysis.instances.assign(1, {});
 }
 
+// Runs a step of an asset's analysis; what is wrong with the asset goes into its outcome.
+void attempt(const fs::path& asset, Outcome& outcome, const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    outcome.error = error.what();
+  } catch (const fs::filesystem_error& error) {
+    outcome.error = fmt::format("{}: {}", asset.string(), error.code().message());
+  } catch (const std::bad_alloc&) {
+    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.string());
+  }
+}
+
 }  // namespace
 
 Pipeline::Pipeline(Options options, std::function<gpu::Device&()> device)
@@ -103,35 +117,42 @@ Pipeline::Pipeline(Options options, std::function<gpu::Device&()> device)
 Pipeline::~Pipeline() = default;
 
 Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
-  Outcome outcome;
-  const Progress report = progress ? progress : [](double, const std::string&) {};
-  try {
+  return finish(start(asset, progress));
+}
+
+std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Progress& progress) {
+  std::unique_ptr<PendingAnalysis> pending(new PendingAnalysis(
+      asset, progress ? progress : [](double, const std::string&) {}));
+  attempt(asset, pending->outcome_, [&] {
     MetricSet wanted = options_.metrics & kOptionalMetrics;
     // A signal's summary is stored: it has to count as computed, for its parameter to be compared later.
     if (options_.signals) wanted.set(index_of(Metric::kFourierTransform));
-    if (!options_.use_analysis_files || !reuse(asset, report, wanted, outcome))
-      compute(asset, report, wanted, outcome);
-    describe(*outcome.analysis, outcome.messages);
-  } catch (const InputError& error) {
-    outcome.error = error.what();
-  } catch (const fs::filesystem_error& error) {
-    outcome.error = fmt::format("{}: {}", asset.string(), error.code().message());
-  } catch (const std::bad_alloc&) {
-    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.string());
-  }
-  if (!outcome.error.empty()) outcome.analysis.reset();
-  return outcome;
+    if (!options_.use_analysis_files || !reuse(*pending, wanted)) compute(*pending, wanted);
+  });
+  return pending;
 }
 
-bool Pipeline::reuse(const fs::path& asset, const Progress& report, MetricSet& wanted,
-                     Outcome& outcome) const {
-  report(0, "checking the analysis file");
-  const fs::path file = analysis_file::path_for(asset, options_.cache_folder);
-  auto loaded = analysis_file::load_valid(file, asset, options_.parameters);
+Outcome Pipeline::finish(std::unique_ptr<PendingAnalysis> pending) {
+  Outcome& outcome = pending->outcome_;
+  attempt(pending->asset_, outcome, [&] {
+    if (!outcome.error.empty()) return;
+    if (pending->measurement_) pending->measurement_->finish();
+    if (pending->computed_ && options_.use_analysis_files) store(*pending);
+    describe(*outcome.analysis, outcome.messages);
+  });
+  if (!outcome.error.empty()) outcome.analysis.reset();
+  return std::move(outcome);
+}
+
+bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) const {
+  pending.report_(0, "checking the analysis file");
+  const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
+  auto loaded = analysis_file::load_valid(file, pending.asset_, options_.parameters);
+  Outcome& outcome = pending.outcome_;
   if (const auto* unusable = std::get_if<analysis_file::Unusable>(&loaded)) {
     if (!unusable->absent)
       outcome.messages.push_back(fmt::format("{}: the analysis file {} {}; it is computed again",
-                                             asset.string(), file.string(), unusable->reason));
+                                             pending.asset_.string(), file.string(), unusable->reason));
     return false;
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
@@ -140,22 +161,23 @@ bool Pipeline::reuse(const fs::path& asset, const Progress& report, MetricSet& w
     wanted |= stored.computed & kOptionalMetrics;
     return false;
   }
-  stored.asset = asset.string();
+  stored.asset = pending.asset_.string();
   outcome.analysis = std::move(stored);
   outcome.from_file = true;
   return true;
 }
 
-void Pipeline::compute(const fs::path& asset, const Progress& report, MetricSet wanted, Outcome& outcome) {
-  report(0, "importing");
-  const FileState before = state_of(asset);
-  const mesh::Scene scene = import::import_asset(asset, options_.import_limits);
+void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
+  pending.report_(0, "importing");
+  pending.computed_ = true;
+  const FileState before = state_of(pending.asset_);
+  pending.scene_ = import::import_asset(pending.asset_, options_.import_limits);
+  const mesh::Scene& scene = pending.scene_;
+  AssetAnalysis& analysis = pending.outcome_.analysis.emplace();
   // Hashed now, not when it is stored: what is measured is what was read.
-  std::vector<analysis::FileFingerprint> files;
-  if (options_.use_analysis_files) files = analysis_file::fingerprint(asset, scene.files);
-  const bool unchanged = before == state_of(asset);
-  AssetAnalysis& analysis = outcome.analysis.emplace();
-  analysis.asset = asset.string();
+  if (options_.use_analysis_files) analysis.files = analysis_file::fingerprint(pending.asset_, scene.files);
+  pending.unchanged_ = before == state_of(pending.asset_);
+  analysis.asset = pending.asset_.string();
   analysis.format = scene.format;
   analysis.unit_scale = scene.unit_scale;
   analysis.up_axis = scene.up_axis;
@@ -165,51 +187,51 @@ void Pipeline::compute(const fs::path& asset, const Progress& report, MetricSet 
   if (scene.instances.empty())
     add_empty_row(analysis);
   else
-    measure(scene, report, wanted, analysis);
-  analysis.files = std::move(files);
-  if (options_.use_analysis_files) store(asset, unchanged, report, outcome);
+    measure(pending, wanted);
 }
 
-void Pipeline::measure(const mesh::Scene& scene, const Progress& report, MetricSet wanted,
-                       AssetAnalysis& analysis) {
+void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
   if (!measurer_) {
-    report(kImported, "starting the device");
+    pending.report_(kImported, "starting the device");
     gpu::Device& device = device_();
     const auto& info = device.info();
     device_stamp_ = {info.name, info.driver, gpu::to_string(info.type)};
     measurer_ = std::make_unique<Measurer>(device);
   }
+  AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis.device = device_stamp_;
-  const auto inner = [&](double fraction, const std::string& step) {
-    report(kImported + (kMeasured - kImported) * fraction, step);
-  };
-  HistogramSink histograms;
+  Measurement measurement{.scene = pending.scene_,
+                          .analysis = analysis,
+                          .parameters = options_.parameters,
+                          .metrics = wanted,
+                          .progress = [&report = pending.report_](double fraction, const std::string& step) {
+                            report(kImported + (kMeasured - kImported) * fraction, step);
+                          }};
   if (options_.histograms)
-    histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
+    measurement.histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
       options_.histograms(analysis, geometry, histogram);
     };
-  SignalSink signals;
   if (options_.signals)
-    signals = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
+    measurement.signals = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
       options_.signals(analysis, geometry, signal);
     };
-  measurer_->measure(scene, options_.parameters, wanted, inner, analysis, histograms, signals);
+  pending.measurement_ = measurer_->start(std::move(measurement));
 }
 
-void Pipeline::store(const fs::path& asset, bool unchanged, const Progress& report, Outcome& outcome) {
-  AssetAnalysis& analysis = *outcome.analysis;
+void Pipeline::store(PendingAnalysis& pending) {
+  Outcome& outcome = pending.outcome_;
   // What did not fit may fit on another device, or when other programs have ended: such a result is not the
   // asset's.
-  if (is_beyond_a_limit(analysis)) return;
-  report(kMeasured, "writing the analysis file");
-  if (!unchanged) {
-    outcome.messages.push_back(
-        fmt::format("{}: the file changed while it was read; its analysis is not kept", asset.string()));
+  if (is_beyond_a_limit(*outcome.analysis)) return;
+  pending.report_(kMeasured, "writing the analysis file");
+  if (!pending.unchanged_) {
+    outcome.messages.push_back(fmt::format("{}: the file changed while it was read; its analysis is not kept",
+                                           pending.asset_.string()));
     return;
   }
-  const fs::path file = analysis_file::path_for(asset, options_.cache_folder);
+  const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
   try {
-    analysis_file::store(file, analysis);
+    analysis_file::store(file, *outcome.analysis);
   } catch (const InputError& error) {
     // Results are as good as ever, only the next run takes as long as this one.
     const fs::path folder = options_.cache_folder.value_or(file.parent_path());

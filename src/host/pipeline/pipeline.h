@@ -5,6 +5,9 @@
 //   import (worker)       -> Scene
 //   measure (GPU)         -> AssetAnalysis
 //   store analysis file   -> next run is instant
+//
+// start() returns when nothing but start triangles and spectra are missing, so that the next asset can be
+// imported and measured while the host searches.
 #pragma once
 
 #include <filesystem>
@@ -47,26 +50,30 @@ struct Outcome {
                                       // import warnings, meshes beyond a limit
 };
 
+class PendingAnalysis;
+
 class Pipeline {
  public:
   // `device` is called at most once, when something has to be computed for the first time.
   Pipeline(Options options, std::function<gpu::Device&()> device);
   ~Pipeline();
 
-  // Never throws for a bad asset (that is an Outcome); throws gpu::NoDevice and gpu::DeviceLost, after which
-  // the rest makes no sense.
+  // None of these throws for a bad asset (that is an Outcome); they throw gpu::NoDevice and gpu::DeviceLost,
+  // after which the rest makes no sense.
   Outcome analyze(const std::filesystem::path& asset, const Progress& progress = {});
+
+  // The same in two steps. Each asset that was started holds its scene in memory until it is finished, and
+  // its search has threads on all processors: few should be pending. Destroy them before the pipeline.
+  std::unique_ptr<PendingAnalysis> start(const std::filesystem::path& asset, const Progress& progress = {});
+  Outcome finish(std::unique_ptr<PendingAnalysis> pending);
 
  private:
   // Whether a valid analysis file holds all `wanted` metrics. If it holds others only, they are added to
   // `wanted`.
-  bool reuse(const std::filesystem::path& asset, const Progress& report, analysis::MetricSet& wanted,
-             Outcome& outcome) const;
-  void compute(const std::filesystem::path& asset, const Progress& report, analysis::MetricSet wanted,
-               Outcome& outcome);
-  void measure(const mesh::Scene& scene, const Progress& report, analysis::MetricSet wanted,
-               analysis::AssetAnalysis& analysis);
-  void store(const std::filesystem::path& asset, bool unchanged, const Progress& report, Outcome& outcome);
+  bool reuse(PendingAnalysis& pending, analysis::MetricSet& wanted) const;
+  void compute(PendingAnalysis& pending, analysis::MetricSet wanted);
+  void measure(PendingAnalysis& pending, analysis::MetricSet wanted);
+  void store(PendingAnalysis& pending);
 
   Options options_;
   std::function<gpu::Device&()> device_;

@@ -33,6 +33,10 @@ void SignalSearch::start(surface_distances::BatchSurfaces surfaces, const Planne
   });
 }
 
+bool SignalSearch::is_running() const {
+  return started() && result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
 std::vector<surface_distances::Signal> SignalSearch::finish(
     const std::function<void(double fraction)>& progress) {
   while (result_.wait_for(kBetweenReports) != std::future_status::ready) progress(done_);

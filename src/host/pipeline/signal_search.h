@@ -21,6 +21,7 @@ class SignalSearch {
   void start(surface_distances::BatchSurfaces surfaces, const PlannedBatch& plan,
              std::uint64_t most_searches);
   bool started() const { return result_.valid(); }
+  bool is_running() const;
   // Waits; meanwhile `progress` is told the fraction that is done a few times a second.
   std::vector<surface_distances::Signal> finish(const std::function<void(double fraction)>& progress);
 
