@@ -34,7 +34,7 @@ Profile DeviceRun::profile(Stage stage) {
   const double all = elapsed_of([&] { execute(stage, recording); }).wall;
   double in_kernels = 0;
   for (const gpu::Recorder::Timing& timing : recording.recorder.timings()) {
-    const double seconds = timing.nanoseconds * 1e-9;
+    const double seconds = timing.nanoseconds.value_or(0) * 1e-9;
     in_kernels += seconds;
     const auto known = std::find_if(profile.parts.begin(), profile.parts.end(),
                                     [&](const auto& part) { return part.first == timing.kernel; });

@@ -109,8 +109,7 @@ StartRow StartBench::run(const TestMesh& mesh) {
   StartTriangle start;
   row.seconds = elapsed_of([&] {
                   start = surface_distances::find_start_triangle(
-                      graph, surface.areas, surface.component.triangles,
-                      {.threads = all_threads()});
+                      graph, surface.areas, surface.component.triangles, {.threads = all_threads()});
                 }).wall;
   row.searches = start.searches;
   row.gap = start.gap;

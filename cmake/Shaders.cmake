@@ -1,14 +1,20 @@
-# add_shaders(<target> room/verb_noun.comp ...)
+# add_shaders(<target> room/verb_noun.comp ... noun.vert noun.frag ...)
 #
-# Compiles GLSL to SPIR-V and embeds it: build/<preset>/shaders/<verb_noun>.spv.h holds the words as
-# `const uint32_t <verb_noun>_spv[]`. Included headers are tracked through a depfile. Include each
+# Compiles GLSL, .comp below shaders/compute and others below shaders/raster, to SPIR-V and embeds it:
+# build/<preset>/shaders/<verb_noun>.spv.h holds the words as `const uint32_t <verb_noun>_spv[]`, of noun.vert it is
+# <noun_vert>. Included headers are tracked through a depfile. Include each
 # generated header in exactly one .cpp, after <cstdint>.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 function(add_shaders target)
   set(output_folder ${CMAKE_BINARY_DIR}/shaders)
   foreach(shader IN LISTS ARGN)
     get_filename_component(stem ${shader} NAME_WE)
+    get_filename_component(stage ${shader} LAST_EXT)
     set(source ${CMAKE_SOURCE_DIR}/shaders/compute/${shader})
+    if(NOT stage STREQUAL .comp)
+      string(REPLACE "." "_" stem "${stem}${stage}")
+      set(source ${CMAKE_SOURCE_DIR}/shaders/raster/${shader})
+    endif()
     set(header ${output_folder}/${stem}.spv.h)
     add_custom_command(
       OUTPUT ${header}

@@ -31,6 +31,7 @@ TEST_F(RoundTrip, EachMetricAloneComesBack) {
   for (std::size_t i = 0; i < analysis::kMetricCount; ++i) {
     auto original = full_analysis();
     original.computed = analysis::MetricSet().set(i);
+    if (i != analysis::index_of(analysis::Metric::kRenderingTime)) original.timings.clear();
     store(folder / "x.analysis", original);
     EXPECT_EQ(std::get<analysis::AssetAnalysis>(load(folder / "x.analysis")).computed, original.computed);
   }
@@ -56,7 +57,7 @@ TEST_F(RoundTrip, StoringAgainReplaces) {
 
 TEST_F(RoundTrip, ManySmallMeshesStaySmall) {
   auto library = full_analysis();
-  library.geometries.assign(20000, full_geometry());
+  replace_geometries(library, 20000);
   library.instances.clear();
   for (std::uint32_t i = 0; i < 20000; ++i)
     library.instances.push_back({i,

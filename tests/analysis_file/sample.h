@@ -70,6 +70,29 @@ inline analysis::GeometryAnalysis full_geometry() {
   return g;
 }
 
+// Of three geometries, the last of which has nothing to draw.
+inline analysis::RenderTiming full_timing(analysis::DeviceStamp device) {
+  analysis::RenderTiming timing;
+  timing.conditions = {std::move(device), 640, 1, 4};
+  timing.timestamp_period_ns = 0.1 + 0.2;
+  timing.times.push_back({.mean_ns = 1e-300,
+                          .confidence_ns = 0.0,
+                          .fastest_ns = 0,
+                          .slowest_ns = 1e300,
+                          .rounds = 4'294'967'295,
+                          .rotations = 1,
+                          .vertex_invocations = 0.0,
+                          .fragment_invocations = 1.0 / 3,
+                          .overdraw = 5e-324,
+                          .not_measured = {}});
+  analysis::RenderingTime plain;
+  plain.mean_ns = plain.fastest_ns = plain.slowest_ns = 17;
+  plain.rounds = plain.rotations = 1;
+  timing.times.push_back(plain);
+  timing.times.emplace_back();
+  return timing;
+}
+
 inline analysis::AssetAnalysis full_analysis() {
   analysis::AssetAnalysis a;
   a.asset = std::string("a folder/\xff\xfe not UTF-8\n.obj");
@@ -77,7 +100,7 @@ inline analysis::AssetAnalysis full_analysis() {
   a.unit_scale = 0.01;
   a.up_axis = "-Z";
   a.parameters = {12.5, 300, 1e-7, 4, 5'000'000'002};
-  a.computed.set(0).set(3).set(4);
+  a.computed.set(0).set(3).set(4).set(analysis::index_of(analysis::Metric::kRenderingTime));
   a.device = {"llvmpipe \xe9", "Mesa 22.3.6", "cpu"};
   analysis::GeometryAnalysis zeros;  // every optional present and zero, which is not absent
   zeros.planar_groups = zeros.largest_planar_group = zeros.components = zeros.isolated_triangles = 0;
@@ -102,7 +125,15 @@ inline analysis::AssetAnalysis full_analysis() {
              {"no\xffthere.mtl", false, 0, {0, 0}},
              {"sub/x.bin", true, 0, {5, 6}}};
   a.warnings = {"first \xff", "", "third"};
+  a.timings = {full_timing({"GPU \xe9", "", "discrete"}), full_timing({"llvmpipe", "Mesa 22.3.6", "cpu"})};
   return a;
+}
+
+// As many geometries, all alike, and no rendering times.
+inline void replace_geometries(analysis::AssetAnalysis& analysis, std::size_t count) {
+  analysis.geometries.assign(count, full_geometry());
+  analysis.timings.clear();
+  analysis.computed.reset(analysis::index_of(analysis::Metric::kRenderingTime));
 }
 
 // By bits, so that -0, NaN and the last digit count.
@@ -156,6 +187,7 @@ inline void expect_same(const analysis::AssetAnalysis& a, const analysis::AssetA
   EXPECT_EQ(a.device.type, b.device.type);
   EXPECT_EQ(a.files, b.files);
   EXPECT_EQ(a.warnings, b.warnings);
+  EXPECT_TRUE(a.timings == b.timings);
   ASSERT_EQ(a.geometries.size(), b.geometries.size());
   for (std::size_t i = 0; i < a.geometries.size(); ++i) expect_same(a.geometries[i], b.geometries[i]);
   ASSERT_EQ(a.instances.size(), b.instances.size());

@@ -89,7 +89,7 @@ TEST_F(Store, FolderThatCannotBeSynced) {
 
 TEST_F(Store, KilledAtAnyMomentLeavesAWholeFileOrNone) {
   auto large = full_analysis();
-  large.geometries.assign(5000, full_geometry());
+  replace_geometries(large, 5000);
   const auto start = std::chrono::steady_clock::now();
   store(folder / "first.analysis", large);
   const std::chrono::duration<double> one_store = std::chrono::steady_clock::now() - start;

@@ -187,12 +187,36 @@ TEST_F(AnalyzeTest, MetricsLimitWhatIsComputed) {
   EXPECT_EQ(all["meshes"][0]["ratings"]["planar_group_variation"], ratings["planar_group_variation"]);
 }
 
-TEST_F(AnalyzeTest, MetricsOfLaterVersionsStayEmptyAndAreSaidSo) {
+TEST_F(AnalyzeTest, RenderingTimesAreMeasuredStoredAndReused) {
   folder_.write("cube.obj", cube_obj());
-  const ProgramResult result = analyze({"cube.obj", "--metrics", "rendering_time", "--json", "-"});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(lines_with(result.err, "warning: "), ElementsAre(HasSubstr("rendering_time")));
-  EXPECT_TRUE(json::parse(result.out)["meshes"][0]["aggregate"].is_null());
+  folder_.write("leg.obj", leg_obj());
+  const std::vector<std::string> arguments = {"cube.obj",        "leg.obj", "--metrics", "rendering_time",
+                                              "--timing-budget", "0.01",    "--steps",   "2",
+                                              "--timing-size",   "64x48"};
+  const json first = analyze_json(arguments);
+  EXPECT_TRUE(first["render_timing"]["device"].is_string());
+  EXPECT_EQ(first["render_timing"]["width"], 64);
+  EXPECT_EQ(first["render_timing"]["height"], 48);
+  EXPECT_EQ(first["render_timing"]["steps"], 2);
+  for (const json& mesh : first["meshes"]) {
+    EXPECT_GT(mesh["rendering_time"]["mean_ns"].get<double>(), 0);
+    EXPECT_GE(mesh["rendering_time"]["rounds"].get<int>(), 1);
+    EXPECT_LE(mesh["rendering_time"]["rotations"].get<int>(), 4);
+    EXPECT_TRUE(mesh["ratings"]["distance"].is_null());
+  }
+  const double sum = first["meshes"][0]["ratings"]["rendering_time"].get<double>() +
+                     first["meshes"][1]["ratings"]["rendering_time"].get<double>();
+  EXPECT_EQ(sum, 1) << "two meshes are the fastest and the slowest";
+  EXPECT_EQ(analyze_json(arguments), first) << "not read from the analysis files";
+}
+
+TEST_F(AnalyzeTest, TheTableSaysWhoseRenderingTimesTheseAre) {
+  folder_.write("cube.obj", cube_obj());
+  const ProgramResult result = analyze({"cube.obj", "--timing-budget", "0.01"});
+  EXPECT_THAT(result.out, HasSubstr("R_rt was measured on "));
+  const bool cpu = lines_with(result.out, "R_rt").front().find("CPU device") != std::string::npos;
+  const json document = analyze_json({"cube.obj", "--timing-budget", "0.01"});
+  EXPECT_EQ(document["render_timing"]["device_type"] == "cpu", cpu);
 }
 
 TEST_F(AnalyzeTest, EyeAndWeightsReachTheRatings) {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -46,9 +47,19 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+std::vector<std::string> without_timing(std::vector<std::string> arguments) {
+  const auto has = [&](const char* option) {
+    return std::ranges::any_of(arguments, [&](const std::string& one) { return one.starts_with(option); });
+  };
+  if (!arguments.empty() && arguments.front() == "analyze" && !has("--metrics") && !has("--timing-budget"))
+    arguments.insert(arguments.begin() + 1, {"--metrics", kUntimedMetrics});
+  return arguments;
+}
+
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+ProgramResult run_program(const std::vector<std::string>& given, const ProgramOptions& options) {
+  const std::vector<std::string> arguments = without_timing(given);
   const TemporaryFolder captured;
   const auto out = captured.path() / "out", err = captured.path() / "err";
   std::filesystem::create_directories(SCENE_ANALYZER_TEST_CACHE);

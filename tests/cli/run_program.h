@@ -19,6 +19,12 @@ struct ProgramOptions {
   bool terminal = false;                           // standard output is a pseudo terminal of 80 columns
 };
 
+// Every metric but rendering time, which takes long and never gives the same digits: what `analyze` gets as
+// --metrics from run_program() when it has neither that option nor --timing-budget.
+inline constexpr const char* kUntimedMetrics =
+    "polygons_per_planar_group,planar_group_variation,relative_density,distance,cooccurrence_contrast,"
+    "fourier_transform";
+
 // Caches (pipeline cache, the driver's shader cache) lie in the build folder, never in the user's home.
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
 

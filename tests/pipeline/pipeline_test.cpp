@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "analysis_file/analysis_file.h"
 #include "gpu/error.h"
 #include "pipeline/pending_analysis.h"
 #include "support/temporary_folder.h"
@@ -45,6 +46,9 @@ gpu::Device& no_device() {
 
 class PipelineTest : public testing::Test {
  protected:
+  // Rendering times take longer than everything else, and have tests of their own.
+  PipelineTest() { options_.metrics.reset(index_of(Metric::kRenderingTime)); }
+
   fs::path strip() { return folder_.write("strip.obj", kStrip); }
 
   Outcome analyze(const fs::path& asset) { return Pipeline(options_, shared_device).analyze(asset); }
@@ -144,11 +148,91 @@ TEST_F(PipelineTest, MetricsThatWereNotAskedForAreAddedLaterWithoutLosingOthers)
   EXPECT_TRUE(analyze_from_file(strip()).from_file);
 }
 
-TEST_F(PipelineTest, MetricsThatNeedNoStageOrDoNotExistYetAreAlwaysCovered) {
+TEST_F(PipelineTest, MetricsThatNeedNoStageAreAlwaysCovered) {
   options_.metrics = only(Metric::kDistance);
   ASSERT_TRUE(analyze(strip()).analysis);
-  options_.metrics = only(Metric::kRelativeDensity) | only(Metric::kRenderingTime);
+  options_.metrics = only(Metric::kRelativeDensity);
   EXPECT_TRUE(analyze_from_file(strip()).from_file);
+}
+
+class PipelineTimingTest : public PipelineTest {
+ protected:
+  PipelineTimingTest() {
+    options_.metrics = only(Metric::kRenderingTime);
+    options_.timing_budget = 0.01;
+    options_.timing_width = options_.timing_height = 64;
+    options_.parameters.steps = 2;
+  }
+};
+
+TEST_F(PipelineTimingTest, TimesAreStoredUnderTheirConditions) {
+  const Outcome first = analyze(strip());
+  ASSERT_TRUE(first.analysis) << first.error;
+  ASSERT_EQ(first.analysis->timings.size(), 1U);
+  EXPECT_EQ(first.analysis->timings[0].conditions.device, first.analysis->device);
+  EXPECT_GT(first.analysis->timings[0].times.at(0).mean_ns, 0);
+  EXPECT_EQ(analyze_from_file(strip()).analysis->timings[0].times, first.analysis->timings[0].times);
+
+  options_.parameters.steps = 1;
+  const Outcome fewer = analyze(strip());
+  EXPECT_FALSE(fewer.from_file);
+  EXPECT_THAT(fewer.messages, IsEmpty()) << "nothing is wrong with the file";
+  ASSERT_EQ(fewer.analysis->timings.size(), 2U);
+  EXPECT_EQ(fewer.analysis->timings[0].conditions.steps, 1U);
+  EXPECT_EQ(fewer.analysis->timings[1].times, first.analysis->timings[0].times);
+
+  options_.parameters.steps = 2;
+  EXPECT_EQ(analyze_from_file(strip()).analysis->timings[0].times, first.analysis->timings[0].times);
+  options_.timing_width = 65;
+  EXPECT_FALSE(analyze(strip()).from_file);
+}
+
+TEST_F(PipelineTimingTest, TimesOfAnotherDeviceServeUntilADeviceIsNamed) {
+  AssetAnalysis other = analyze(strip()).analysis.value();
+  other.timings[0].conditions.device.name = "another device";
+  analysis_file::store(folder_.path() / "strip.obj.analysis", other);
+  EXPECT_EQ(analyze_from_file(strip()).analysis->timings[0].conditions.device.name, "another device");
+  options_.this_device_only = true;
+  const Outcome here = analyze(strip());
+  EXPECT_FALSE(here.from_file);
+  ASSERT_EQ(here.analysis->timings.size(), 2U);
+  EXPECT_EQ(here.analysis->timings[0].conditions.device, here.analysis->device);
+  EXPECT_EQ(here.analysis->timings[1].conditions.device.name, "another device");
+  EXPECT_TRUE(analyze(strip()).from_file);
+}
+
+TEST_F(PipelineTimingTest, RenderingIsNotTimedAgainForOtherMetrics) {
+  const auto times = analyze(strip()).analysis->timings.at(0).times;
+  options_.metrics = only(Metric::kFourierTransform);
+  const Outcome other = analyze(strip());
+  EXPECT_FALSE(other.from_file);
+  EXPECT_EQ(other.analysis->timings.at(0).times, times);
+  options_.metrics |= only(Metric::kRenderingTime);
+  EXPECT_TRUE(analyze_from_file(strip()).from_file);
+}
+
+TEST_F(PipelineTimingTest, StoredTimesServeWhateverElseIsMeasured) {
+  const auto times = analyze(strip()).analysis->timings.at(0).times;
+  options_.histograms = [](const AssetAnalysis&, std::uint32_t, const analysis::Histogram&) {};
+  const Outcome again = analyze(strip());
+  EXPECT_FALSE(again.from_file);
+  ASSERT_EQ(again.analysis->timings.size(), 1U);
+  EXPECT_EQ(again.analysis->timings[0].times, times);
+}
+
+TEST_F(PipelineTimingTest, WhereThereIsNothingToDrawTheFileServes) {
+  const fs::path flat = folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\no line\nf 1 2 3\n");
+  ASSERT_TRUE(analyze(flat).analysis);
+  EXPECT_TRUE(analyze_from_file(flat).from_file);
+}
+
+TEST_F(PipelineTimingTest, APictureThatTheDeviceCannotDrawCostsTheTimesOnly) {
+  options_.timing_width = 1'000'000;
+  const Outcome outcome = analyze(strip());
+  ASSERT_TRUE(outcome.analysis) << outcome.error;
+  EXPECT_TRUE(outcome.analysis->timings.empty());
+  EXPECT_THAT(outcome.messages, ElementsAre(AllOf(HasSubstr("rendering time"), HasSubstr("1000000"))));
+  EXPECT_EQ(outcome.analysis->geometries.at(0).triangles, 4U);
 }
 
 TEST_F(PipelineTest, TheFourierRatingIsStoredUnderItsParameter) {

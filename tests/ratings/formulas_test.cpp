@@ -233,5 +233,12 @@ TEST(Distance, DefaultEyeLooksFromThreeQuarters) {
   EXPECT_TRUE(std::isfinite(default_eye({{-1e307, 0, 0}, {1e307, 0, 0}})[0]));
 }
 
+TEST(RenderingTimeRatings, RunFromTheFastestToTheSlowest) {
+  EXPECT_EQ(rendering_time_ratings(std::vector<double>{3, 1, 5, 2}), (std::vector<double>{0.5, 0, 1, 0.25}));
+  EXPECT_EQ(rendering_time_ratings(std::vector<double>{7, 7}), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(rendering_time_ratings(std::vector<double>{7}), std::vector<double>{0.5});
+  EXPECT_TRUE(rendering_time_ratings({}).empty());
+}
+
 }  // namespace
 }  // namespace scene_analyzer::ratings

@@ -58,6 +58,52 @@ TEST(Rate, AnEmptySceneHasNoStatistics) {
   EXPECT_EQ(scene.drawn_triangles + scene.unique_triangles + scene.degenerate_triangles, 0u);
 }
 
+analysis::RenderTiming timing(const std::string& device, std::vector<double> means) {
+  analysis::RenderTiming result;
+  result.conditions.device = {device, "driver", "discrete"};
+  for (const double mean : means) result.times.emplace_back().mean_ns = mean;
+  return result;
+}
+
+TEST(Rate, RenderingTimesAreRatedByGeometryWithinTheScene) {
+  AssetAnalysis room = asset({geometry(0, 10, 5), geometry(1, 100, 5), geometry(2, 7, 5)},
+                             {instance(1, 0), instance(0, 5), instance(1, 9), instance(2, 0)});
+  room.timings = {timing("A", {100, 400, 200})};
+  room.timings[0].times[2] = {};
+  room.timings[0].times[2].not_measured = "too large";
+  AssetAnalysis part = asset({geometry(0, 10, 5)}, {instance(0, 0)});
+  part.timings = {timing("A", {200})};
+  const std::vector<AssetAnalysis> assets = {room, part};
+  const SceneRating scene = rate(assets, {});
+  std::vector<std::optional<double>> found;
+  for (const MeshRating& mesh : scene.meshes) found.push_back(rating(mesh, Metric::kRenderingTime));
+  EXPECT_EQ(found, (std::vector<std::optional<double>>{1, 0, 1, std::nullopt, 1.0 / 3}));
+  EXPECT_EQ(scene.meshes[3].rendering_time->not_measured, "too large");
+  EXPECT_EQ(scene.timing->device.name, "A");
+  EXPECT_FALSE(scene.mixed_timings);
+}
+
+TEST(Rate, RenderingTimesOfTwoDevicesAreNeverMixed) {
+  AssetAnalysis one = asset({geometry(0, 10, 5)}, {instance(0, 0)}), other = one, untimed = one;
+  one.timings = {timing("A", {100}), timing("B", {30})};
+  other.timings = {timing("C", {1}), timing("B", {60})};
+  std::vector<AssetAnalysis> assets = {one, other, untimed};
+  SceneRating scene = rate(assets, {});
+  EXPECT_EQ(scene.timing->device.name, "B");
+  EXPECT_EQ(rating(scene.meshes[0], Metric::kRenderingTime), 0);
+  EXPECT_EQ(rating(scene.meshes[1], Metric::kRenderingTime), 1);
+  EXPECT_EQ(rating(scene.meshes[2], Metric::kRenderingTime), std::nullopt);
+
+  assets[1].timings[1].conditions.steps = 4;
+  scene = rate(assets, {});
+  EXPECT_TRUE(scene.mixed_timings);
+  EXPECT_FALSE(scene.timing);
+  for (const MeshRating& mesh : scene.meshes) {
+    EXPECT_FALSE(mesh.rendering_time);
+    EXPECT_EQ(rating(mesh, Metric::kRenderingTime), std::nullopt);
+  }
+}
+
 TEST(Rate, GivesInstancesTheRatingsOfTheirGeometry) {
   const AssetAnalysis room =
       asset({geometry(0, 10, 5), geometry(1, 100, 5)}, {instance(1, 0), instance(0, 5), instance(1, 9, 4)});

@@ -71,18 +71,18 @@ TEST(Csv, HasAColumnForEveryField) {
   const Table rows = read_csv(text);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].size(),
-            19 + 4 + 5 + 2 * 7 + 4u);  // 19 plain with signal and bounds as one each, 4 and 5 more for
-                                       // them, 2 x 7 ratings, 4
+            20 + 4 + 5 + 8 + 2 * 7 + 5u);  // 20 plain with signal, bounds and rendering time as one each, 4,
+                                           // 5 and 8 more for them, 2 x 7 ratings, 5
   EXPECT_THAT(
       text, ::testing::StartsWith("index,asset,node,mesh,source_triangles,degenerate_triangles,triangles,"));
   EXPECT_THAT(text, ::testing::HasSubstr(
                         ",area_classes,signal.length,signal.start_triangle,signal.mean_distance,signal.gap,"
-                        "signal.searches,surface_area,"));
+                        "signal.searches,rendering_time.mean_ns,rendering_time.confidence_ns,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.min.x,bounds.min.y,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.max.z,distance,ratings.polygons_per_planar_group,"));
-  EXPECT_THAT(text,
-              ::testing::HasSubstr(
-                  ",relative_ratings.rendering_time,aggregate,color,not_analysed,no_fourier_transform\n"));
+  EXPECT_THAT(text, ::testing::HasSubstr(
+                        ",relative_ratings.rendering_time,aggregate,color,not_analysed,no_fourier_transform,"
+                        "no_rendering_time\n"));
 }
 
 TEST(Csv, QuotesCommasQuotesAndLineBreaks) {

@@ -39,6 +39,27 @@ analysis::InstanceAnalysis instance(std::uint32_t geometry, std::string node, st
   return result;
 }
 
+analysis::RenderTiming timing(std::vector<double> means) {
+  analysis::RenderTiming result;
+  result.conditions = {{"llvmpipe (LLVM 15)", "Mesa 22.3.6", "cpu"}, 640, 480, 8};
+  result.timestamp_period_ns = 1;
+  for (const double mean : means) {
+    analysis::RenderingTime& time = result.times.emplace_back();
+    if (mean == 0) continue;
+    time = {.mean_ns = mean,
+            .confidence_ns = 12.5,
+            .fastest_ns = mean / 2,
+            .slowest_ns = 2 * mean,
+            .rounds = 7,
+            .rotations = 64,
+            .vertex_invocations = 120,
+            .fragment_invocations = 5000.25,
+            .overdraw = std::nullopt,
+            .not_measured = {}};
+  }
+  return result;
+}
+
 }  // namespace
 
 SceneReport Fixture::report() const {
@@ -75,6 +96,8 @@ Fixture two_assets() {
   part.geometries[1].mesh = 1;
   part.instances = {instance(0, "huge", "huge", 0),
                     instance(1, "", "say \"hi\", \x1b[31mred\x1b[0m\nnew\xff line \xc3\xa4\xe6\xbc\xa2", 8)};
+  room.timings = {timing({1500, 0})};
+  part.timings = {timing({0, 4500})};
   fixture.assets = {room, part};
   return fixture;
 }

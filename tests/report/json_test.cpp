@@ -38,8 +38,8 @@ int validate(const std::string& document) {
 TEST(Json, HasItsFieldsInOrder) {
   const Fixture fixture = two_assets();
   const ordered_json document = parsed(fixture.report());
-  EXPECT_EQ(keys_of(document),
-            (std::vector<std::string>{"schema_version", "tool", "parameters", "scene", "assets", "meshes"}));
+  EXPECT_EQ(keys_of(document), (std::vector<std::string>{"schema_version", "tool", "parameters",
+                                                         "render_timing", "scene", "assets", "meshes"}));
   EXPECT_EQ(document["schema_version"], 1);
   const ordered_json tool = {{"version", "0.1.0"},
                              {"device", "llvmpipe (LLVM 15)"},
@@ -47,6 +47,14 @@ TEST(Json, HasItsFieldsInOrder) {
                              {"device_type", "cpu"}};
   EXPECT_EQ(document["tool"], tool);
   EXPECT_EQ(document["parameters"]["weights"]["distance"], 1.0);
+  const ordered_json timing = {{"device", "llvmpipe (LLVM 15)"},
+                               {"driver", "Mesa 22.3.6"},
+                               {"device_type", "cpu"},
+                               {"width", 640},
+                               {"height", 480},
+                               {"steps", 8},
+                               {"timestamp_period_ns", 1.0}};
+  EXPECT_EQ(document["render_timing"], timing);
   EXPECT_EQ(document["parameters"]["metrics"].size(), 7u);
   EXPECT_TRUE(document["parameters"]["eye"].is_null());
   EXPECT_EQ(document["scene"]["mesh_count"], 5);
@@ -55,6 +63,17 @@ TEST(Json, HasItsFieldsInOrder) {
   EXPECT_EQ(document["assets"][0]["unit_scale"], 1.0);
   EXPECT_TRUE(document["assets"][1]["up_axis"].is_null());
   EXPECT_EQ(document["assets"][0]["warnings"].size(), 1u);
+}
+
+TEST(Json, SaysWhyARenderingTimeIsMissing) {
+  Fixture fixture = two_assets();
+  analysis::RenderingTime& time = fixture.assets[1].timings[0].times[1];
+  time = {};
+  time.not_measured = "the device's timestamps ran backwards";
+  const ordered_json mesh = parsed(fixture.report())["meshes"][4];
+  EXPECT_TRUE(mesh["rendering_time"].is_null());
+  EXPECT_TRUE(mesh["ratings"]["rendering_time"].is_null());
+  EXPECT_EQ(mesh["no_rendering_time"], time.not_measured);
 }
 
 TEST(Json, PrintsAMeshWithNumbersAsNumbers) {
@@ -75,7 +94,12 @@ TEST(Json, PrintsAMeshWithNumbersAsNumbers) {
   EXPECT_EQ(mesh["bounds"]["min"], ordered_json::parse("[3.0, 0.0, 0.0]"));
   EXPECT_EQ(mesh["ratings"]["cooccurrence_contrast"].get<double>(), 1.0 / 3);  // every digit
   EXPECT_EQ(mesh["ratings"]["fourier_transform"], 0.09168);
-  EXPECT_TRUE(mesh["relative_ratings"]["rendering_time"].is_null());
+  EXPECT_EQ(mesh["ratings"]["rendering_time"], 0);
+  EXPECT_EQ(mesh["rendering_time"]["mean_ns"], 1500.0);
+  EXPECT_EQ(mesh["rendering_time"]["confidence_ns"], 12.5);
+  EXPECT_EQ(mesh["rendering_time"]["rounds"], 7);
+  EXPECT_TRUE(mesh["rendering_time"]["overdraw"].is_null());
+  EXPECT_TRUE(mesh["no_rendering_time"].is_null());
   EXPECT_EQ(mesh["aggregate"].get<double>(), *report.rating.meshes[1].aggregate);
   EXPECT_EQ(mesh["color"], ratings::to_hex(ratings::color(*report.rating.meshes[1].aggregate)));
   EXPECT_TRUE(mesh["not_analysed"].is_null());

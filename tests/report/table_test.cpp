@@ -29,16 +29,17 @@ TEST(Table, ShowsFourDecimalsAndDashes) {
   Fixture fixture = two_assets();
   fixture.assets.pop_back();
   const auto lines = lines_of(table(fixture.report(), {}));
-  ASSERT_EQ(lines.size(), 6u);
+  ASSERT_EQ(lines.size(), 7u);
   EXPECT_THAT(words_of(lines[0]), ::testing::ElementsAre("name", "triangles", "groups", "R_pppg", "R_pgv",
                                                          "R_rd", "R_d", "R_ccm", "R_ft", "R_rt", "R"));
   EXPECT_THAT(words_of(lines[1]),
               ::testing::ElementsAre("leg", "left", "40", "12", "0.7179", "0.3873", "0.5000", ::testing::_,
-                                     "0.3333", "0.0917", "-", ::testing::_));
+                                     "0.3333", "0.0917", "0.5000", ::testing::_));
   EXPECT_THAT(words_of(lines[2])[6], "-0.5000");
   EXPECT_THAT(words_of(lines[3]),
               ::testing::ElementsAre("helper", "0", "-", "-", "-", "-", "-", "-", "-", "-", "-"));
   EXPECT_EQ(lines[5], "3 meshes, 80 triangles (40 unique), 2 degenerate left out");
+  EXPECT_EQ(lines[6], "R_rt was measured on llvmpipe (LLVM 15), a CPU device: it says nothing about a GPU");
 }
 
 TEST(Table, AlignsEveryRowWhateverTheNames) {
@@ -53,10 +54,12 @@ TEST(Table, AlignsEveryRowWhateverTheNames) {
 TEST(Table, LetsNoNameControlTheTerminal) {
   Fixture fixture = two_assets();
   fixture.assets[1].asset = "evil\x1b]0;title\x07.obj";
+  for (auto& asset : fixture.assets) asset.timings[0].conditions.device.name = "GPU\x1b[0m";
   const std::string text = table(fixture.report(), {});
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_EQ(text.find('\x07'), std::string::npos);
-  EXPECT_EQ(lines_of(text).size(), 8u);  // head, five meshes, rule, totals: the name's line break made none
+  EXPECT_EQ(lines_of(text).size(),
+            9u);  // head, five meshes, rule, totals, R_rt: the name's line break made none
 }
 
 TEST(Table, PrefixesMeshesOnlyWhenThereAreSeveralAssets) {
@@ -111,7 +114,7 @@ TEST(Table, MarksFourierRatingsThatAreNotFinal) {
   const auto lines = lines_of(table(fixture.report(), {}));
   EXPECT_THAT(words_of(lines[1]), ::testing::Contains("~0.0917"));
   EXPECT_THAT(words_of(lines[5]), ::testing::Contains("0.0917")) << "the other asset's leg is proven";
-  ASSERT_EQ(lines.size(), 11u);
+  ASSERT_EQ(lines.size(), 12u);
   EXPECT_THAT(lines[8], ::testing::StartsWith("~ R_ft is not final for 2 meshes"));
   EXPECT_THAT(lines[9], HasSubstr("up to 1.4 % farther"));
   EXPECT_THAT(lines[10], HasSubstr("--start-searches"));
@@ -135,6 +138,17 @@ TEST(Table, CountsMeshesWithoutAFourierRating) {
   fixture.assets[0].geometries[0].signal.reset();
   fixture.assets[0].geometries[0].no_fourier_transform = "a signal is too long";
   EXPECT_THAT(table(fixture.report(), {}), HasSubstr(", 2 meshes without a Fourier rating"));
+}
+
+TEST(Table, SaysWhatRenderingTimesMean) {
+  Fixture fixture = two_assets();
+  for (auto& asset : fixture.assets) asset.timings[0].conditions.device.type = "discrete";
+  fixture.assets[1].timings[0].times[1] = {};
+  fixture.assets[1].timings[0].times[1].not_measured = "too large";
+  EXPECT_THAT(table(fixture.report(), {}),
+              HasSubstr("\nR_rt was measured on llvmpipe (LLVM 15); 1 mesh not measured\n"));
+  fixture.options.metrics.reset(index_of(analysis::Metric::kRenderingTime));
+  EXPECT_THAT(table(fixture.report(), {}), Not(HasSubstr("measured on")));
 }
 
 TEST(GapPercent, IsABoundOfTwoDigits) {
@@ -161,8 +175,8 @@ TEST(Table, ShowsRelativeRatingsInRelativeMode) {
   fixture.assets[1].geometries[1].cooccurrence_contrast = 0.4;
   fixture.options.relative = true;
   const auto lines = lines_of(table(fixture.report(), {}));
-  EXPECT_THAT(lines.back(), HasSubstr("relative to this scene"));
-  EXPECT_THAT(lines.back(), HasSubstr("1 mesh not analysed"));
+  EXPECT_THAT(lines[7], HasSubstr("relative to this scene"));
+  EXPECT_THAT(lines[7], HasSubstr("1 mesh not analysed"));
   EXPECT_THAT(lines[5], HasSubstr("1.0000"));
 }
 

@@ -17,7 +17,7 @@
 
 namespace scene_analyzer::analysis {
 
-// What changes stored results. `steps` concerns rendering time only.
+// What changes stored results, and `steps`, which rendering times are stored with.
 struct Parameters {
   double alpha_degrees = 0;              // planar groups: largest angle between neighbours' normals, [0, 180]
   std::uint32_t dim = 20000;             // co-occurrence: largest number of area classes, >= 2
@@ -95,6 +95,36 @@ struct DeviceStamp {
   std::string name;
   std::string driver;
   std::string type;  // "discrete", "integrated", "virtual", "cpu" or "other"
+  bool operator==(const DeviceStamp&) const = default;
+};
+
+// How long one geometry takes to draw, alone. Per draw: means over the rotations.
+struct RenderingTime {
+  // Of the medians over the rounds of each rotation. 0: there was nothing to draw, or it was not measured.
+  double mean_ns = 0;
+  std::optional<double> confidence_ns;    // half of its 95 % interval; absent with too few rounds to tell
+  double fastest_ns = 0, slowest_ns = 0;  // of the rotations' medians
+  std::uint32_t rounds = 0;
+  std::uint32_t rotations = 0;  // at most steps^2; fewer where the budget did not allow more
+  std::optional<double> vertex_invocations, fragment_invocations;  // absent where the device does not count
+  std::optional<double> overdraw;  // fragment invocations per covered pixel; absent without either
+  std::string not_measured;        // why all that is missing; or empty
+  bool operator==(const RenderingTime&) const = default;
+};
+
+// The rendering times of an asset on one device.
+struct RenderTiming {
+  // Times with the same conditions can be compared.
+  struct Conditions {
+    DeviceStamp device;
+    std::uint32_t width = 512, height = 512;  // pixels
+    std::uint32_t steps = 8;                  // rotations per axis
+    bool operator==(const Conditions&) const = default;
+  };
+  Conditions conditions;
+  double timestamp_period_ns = 0;    // of the device's clock
+  std::vector<RenderingTime> times;  // one per geometry of the asset
+  bool operator==(const RenderTiming&) const = default;
 };
 
 struct AssetAnalysis {
@@ -109,6 +139,7 @@ struct AssetAnalysis {
   std::vector<InstanceAnalysis> instances;  // depth-first node order
   std::vector<FileFingerprint> files;
   std::vector<std::string> warnings;
+  std::vector<RenderTiming> timings;  // the one asked for first; no two of one device, size and steps
 };
 
 inline bool is_beyond_a_limit(const AssetAnalysis& analysis) {

@@ -44,7 +44,7 @@ std::variant<analysis::AssetAnalysis, Unusable> load(const std::filesystem::path
 
 // load(), and then checks that the file still describes `asset` as it lies on disk now (every referenced file
 // is hashed again) under `parameters`, computed by this program version. The metrics it holds are the
-// caller's concern. The result carries `asset` and
+// caller's concern, and so are the conditions of rendering times. The result carries `asset` and
 // `parameters` as given here; the file's time of modification becomes now, for prune().
 std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem::path& file,
                                                            const std::filesystem::path& asset,

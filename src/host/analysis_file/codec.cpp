@@ -87,6 +87,29 @@ void write_instance(const analysis::InstanceAnalysis& from, v1::Instance& to) {
   bounds.mutable_max()->Add(from.bounds->max.begin(), from.bounds->max.end());
 }
 
+void write_time(const analysis::RenderingTime& from, v1::RenderingTime& to) {
+  to.set_mean_ns(from.mean_ns);
+  if (from.confidence_ns) to.set_confidence_ns(*from.confidence_ns);
+  to.set_fastest_ns(from.fastest_ns);
+  to.set_slowest_ns(from.slowest_ns);
+  to.set_rounds(from.rounds);
+  to.set_rotations(from.rotations);
+  if (from.vertex_invocations) to.set_vertex_invocations(*from.vertex_invocations);
+  if (from.fragment_invocations) to.set_fragment_invocations(*from.fragment_invocations);
+  if (from.overdraw) to.set_overdraw(*from.overdraw);
+}
+
+void write_timing(const analysis::RenderTiming& from, v1::RenderTiming& to) {
+  to.set_device(from.conditions.device.name);
+  to.set_driver(from.conditions.device.driver);
+  to.set_device_type(from.conditions.device.type);
+  to.set_width(from.conditions.width);
+  to.set_height(from.conditions.height);
+  to.set_steps(from.conditions.steps);
+  to.set_timestamp_period_ns(from.timestamp_period_ns);
+  for (const auto& time : from.times) write_time(time, *to.add_times());
+}
+
 void write_head(const analysis::AssetAnalysis& from, std::string_view version, v1::Analysis& to) {
   to.set_content_key(content_key_of(from, version));
   to.mutable_tool()->set_version(std::string(version));
@@ -127,6 +150,7 @@ std::string encode(const analysis::AssetAnalysis& analysis, std::string_view ver
   for (const auto& geometry : analysis.geometries) write_geometry(geometry, *message.add_geometries());
   for (const auto& instance : analysis.instances) write_instance(instance, *message.add_instances());
   for (const auto& warning : analysis.warnings) message.add_warnings(warning);
+  for (const auto& timing : analysis.timings) write_timing(timing, *message.add_render_timings());
   return serialized(message);
 }
 

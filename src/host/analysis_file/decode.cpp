@@ -93,6 +93,29 @@ analysis::InstanceAnalysis read_instance(const v1::Instance& from) {
   return to;
 }
 
+analysis::RenderingTime read_time(const v1::RenderingTime& from) {
+  analysis::RenderingTime to;
+  to.mean_ns = from.mean_ns();
+  to.confidence_ns = when(from.has_confidence_ns(), from.confidence_ns());
+  to.fastest_ns = from.fastest_ns();
+  to.slowest_ns = from.slowest_ns();
+  to.rounds = from.rounds();
+  to.rotations = from.rotations();
+  to.vertex_invocations = when(from.has_vertex_invocations(), from.vertex_invocations());
+  to.fragment_invocations = when(from.has_fragment_invocations(), from.fragment_invocations());
+  to.overdraw = when(from.has_overdraw(), from.overdraw());
+  return to;
+}
+
+analysis::RenderTiming read_timing(const v1::RenderTiming& from) {
+  analysis::RenderTiming to;
+  to.conditions = {
+      {from.device(), from.driver(), from.device_type()}, from.width(), from.height(), from.steps()};
+  to.timestamp_period_ns = from.timestamp_period_ns();
+  for (const auto& time : from.times()) to.times.push_back(read_time(time));
+  return to;
+}
+
 analysis::FileFingerprint read_file(const v1::File& from) {
   return {from.path(), from.found(), from.size(), {from.hash_low(), from.hash_high()}};
 }
@@ -114,6 +137,7 @@ Stored read_message(const v1::Analysis& from) {
   for (const auto& instance : from.instances()) to.instances.push_back(read_instance(instance));
   for (const auto& file : from.files()) to.files.push_back(read_file(file));
   to.warnings.assign(from.warnings().begin(), from.warnings().end());
+  for (const auto& timing : from.render_timings()) to.timings.push_back(read_timing(timing));
   return stored;
 }
 

@@ -81,9 +81,7 @@ std::string content_key_of(const analysis::AssetAnalysis& analysis, std::string_
   append(bytes, parameters.alpha_degrees + 0.0);  // -0 is 0
   append(bytes, parameters.dim);
   append(bytes, parameters.weld_tolerance + 0.0);
-  // Rotations change nothing as long as nothing was timed.
-  const bool timed = analysis.computed[analysis::index_of(analysis::Metric::kRenderingTime)];
-  append(bytes, timed ? parameters.steps : std::uint32_t{0});
+  append(bytes, std::uint32_t{0});  // where files from before rendering times had their rotations
   append(bytes, static_cast<std::uint64_t>(analysis.files.size()));
   for (const analysis::FileFingerprint& file : analysis.files) {
     add_text(bytes, file.path);

@@ -62,15 +62,9 @@ std::optional<std::string> parameter_reason(const analysis::AssetAnalysis& analy
   if (auto reason = differing("alpha", stored.alpha_degrees, wanted.alpha_degrees)) return reason;
   if (auto reason = differing("dim", stored.dim, wanted.dim)) return reason;
   if (auto reason = differing("weld tolerance", stored.weld_tolerance, wanted.weld_tolerance)) return reason;
-  // These two change nothing but the values of one metric each.
-  const auto computed = [&](analysis::Metric metric) {
-    return analysis.computed[analysis::index_of(metric)];
-  };
-  if (computed(analysis::Metric::kFourierTransform))
-    if (auto reason = differing("start searches", stored.start_searches, wanted.start_searches))
-      return reason;
-  if (!computed(analysis::Metric::kRenderingTime)) return std::nullopt;
-  return differing("steps", stored.steps, wanted.steps);
+  // Changes nothing but the values of one metric. Rotations are stored with every rendering time.
+  if (!analysis.computed[analysis::index_of(analysis::Metric::kFourierTransform)]) return std::nullopt;
+  return differing("start searches", stored.start_searches, wanted.start_searches);
 }
 
 std::string change_of(const analysis::FileFingerprint& stored, const analysis::FileFingerprint& now) {

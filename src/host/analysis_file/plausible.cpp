@@ -94,6 +94,22 @@ Reason file_reason(const analysis::FileFingerprint& file) {
   return std::nullopt;
 }
 
+bool is_count(const std::optional<double>& value) {
+  return !value || is_length(*value);
+}
+
+Reason time_reason(const analysis::RenderingTime& time) {
+  if (time.mean_ns == 0) return std::nullopt;
+  if (!is_length(time.mean_ns) || !is_length(time.fastest_ns) || !is_length(time.slowest_ns) ||
+      time.fastest_ns > time.slowest_ns)
+    return "times negative, not finite or in no order";
+  if (!is_count(time.confidence_ns)) return "an interval negative or not finite";
+  if (time.rounds < 1 || time.rotations < 1) return "a time without a draw";
+  if (!is_count(time.vertex_invocations) || !is_count(time.fragment_invocations) || !is_count(time.overdraw))
+    return "counts negative or not finite";
+  return std::nullopt;
+}
+
 // The first reason among `items`, with what and which.
 template <typename Items, typename Judge>
 Reason first_reason(const char* what, const Items& items, Judge judge) {
@@ -101,6 +117,17 @@ Reason first_reason(const char* what, const Items& items, Judge judge) {
     if (const Reason reason = judge(items[i]))
       return std::string(what) + " " + std::to_string(i) + ": " + *reason;
   return std::nullopt;
+}
+
+Reason timing_reason(const analysis::RenderTiming& timing, std::size_t geometries) {
+  const analysis::RenderTiming::Conditions& conditions = timing.conditions;
+  if (conditions.device.name.empty() || !contains(kDeviceTypes, conditions.device.type))
+    return "no device, or one of an unknown type";
+  if (conditions.width < 1 || conditions.height < 1 || conditions.steps < 1)
+    return "no picture or no rotation";
+  if (!is_length(timing.timestamp_period_ns)) return "a clock's period negative or not finite";
+  if (timing.times.size() != geometries) return "not one time per geometry";
+  return first_reason("time", timing.times, time_reason);
 }
 
 }  // namespace
@@ -120,6 +147,12 @@ Reason implausible(const analysis::AssetAnalysis& analysis) {
   if (Reason reason = first_reason("file", analysis.files, file_reason)) return reason;
   if (Reason reason = first_reason("geometry", analysis.geometries, geometry_reason)) return reason;
   const std::size_t geometries = analysis.geometries.size();
+  if (analysis.computed[analysis::index_of(analysis::Metric::kRenderingTime)] == analysis.timings.empty())
+    return "of rendering times and their metric only one";
+  if (Reason reason = first_reason("render timing", analysis.timings, [geometries](const auto& timing) {
+        return timing_reason(timing, geometries);
+      }))
+    return reason;
   return first_reason("instance", analysis.instances,
                       [geometries](const auto& instance) { return instance_reason(instance, geometries); });
 }

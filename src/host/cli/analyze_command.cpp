@@ -78,11 +78,12 @@ bool write_outputs(const AnalyzeRequest& request, const report::SceneReport& rep
   return good;
 }
 
-void note_metrics_without_values(const AnalyzeRequest& request) {
-  const std::size_t timing = index_of(analysis::Metric::kRenderingTime);
-  if (!request.ratings.metrics.all() && request.ratings.metrics[timing])
-    log_warning(fmt::format("--metrics: {} is not computed by this version; its values stay empty",
-                            analysis::kMetricKeys[timing]));
+void warn_if_timings_are_mixed(const report::SceneReport& report) {
+  if (!report.rating.mixed_timings || !report.options.metrics[index_of(analysis::Metric::kRenderingTime)])
+    return;
+  log_warning(
+      "the assets' rendering times were measured on different devices, which cannot be rated together; R_rt "
+      "stays empty. With --device all are measured on that device");
 }
 
 }  // namespace
@@ -95,7 +96,6 @@ int analyze_command(std::span<const std::string> arguments) {
   }
   set_up_logging(request.log);
   watch_interrupts();
-  note_metrics_without_values(request);
   LazyDevice device(device_options(request.device));
   const Analyses analyses = analyze_assets(request, device);
   warn_if_mixed(analyses.assets, &analysis::AssetAnalysis::unit_scale, "their unit in metres");
@@ -104,7 +104,9 @@ int analyze_command(std::span<const std::string> arguments) {
   const auto validation = device.take_validation_messages();
   for (const std::string& message : validation) log_error(message);
   if (!validation.empty()) return kUnusable;
-  const bool written = write_outputs(request, make_report(request, analyses.assets));
+  const report::SceneReport report = make_report(request, analyses.assets);
+  warn_if_timings_are_mixed(report);
+  const bool written = write_outputs(request, report);
   return written && analyses.all_good ? kSuccess : kInputFailed;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <tuple>
 
 #include "base/error.h"
 #include "cli/command_line.h"
@@ -30,7 +31,8 @@ constexpr const char* kExamples =
 
 std::string metric_help() {
   return fmt::format(
-      "Metrics (KEY):\n  {}\n  rendering_time is not computed by this version; it stays empty.\n",
+      "Metrics (KEY):\n  {}\nrendering_time takes longest by far; a CPU device's times say nothing about a "
+      "GPU.\n",
       fmt::join(analysis::kMetricKeys, "\n  "));
 }
 
@@ -40,9 +42,15 @@ cxxopts::Options make_options() {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add_options("Measuring")(
       "alpha", "planar groups: largest angle between neighbouring triangles, degrees in [0, 180], default 0",
-      text(),
-      "DEG")("dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000", text(),
-             "N")("steps", "rendering time: rotations about each axis, 1 to 256, default 8", text(), "N")(
+      text(), "DEG")("dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000",
+                     text(), "N")(
+      "steps", "rendering time: rotations about each axis, 1 to 256, default 8: 64 draws of every mesh",
+      text(), "N")("timing-size", "rendering time: size of the picture drawn, default 512x512", text(),
+                   "WxH")("timing-budget",
+                          "rendering time: seconds for all meshes of an asset together, default 30; less "
+                          "where the times are sure "
+                          "earlier",
+                          text(), "S")(
       "start-searches",
       "Fourier transform: most work on finding where the signal starts, the triangle farthest from all "
       "others "
@@ -87,7 +95,8 @@ void read_measuring(const CommandLine& line, pipeline::Options& options) {
     parameters.dim =
         static_cast<std::uint32_t>(parse_integer("dim", *dim, 2, std::numeric_limits<std::uint32_t>::max()));
   if (const auto steps = line.value("steps"))
-    parameters.steps = static_cast<std::uint32_t>(parse_integer("steps", *steps, 1, 256));
+    parameters.steps =
+        static_cast<std::uint32_t>(parse_integer("steps", *steps, 1, render_timing::kMostSteps));
   // No mesh has more triangles than the greatest, and so many searches prove every start.
   if (const auto searches = line.value("start-searches"))
     parameters.start_searches =
@@ -95,6 +104,10 @@ void read_measuring(const CommandLine& line, pipeline::Options& options) {
   if (const auto tolerance = line.value("weld-tolerance"))
     parameters.weld_tolerance = parse_number("weld-tolerance", *tolerance, 0,
                                              std::numeric_limits<double>::max(), "units of the file");
+  if (const auto size = line.value("timing-size"))
+    std::tie(options.timing_width, options.timing_height) = parse_pixels("timing-size", *size);
+  if (const auto budget = line.value("timing-budget"))
+    options.timing_budget = parse_number("timing-budget", *budget, 0.001, 86400, "seconds");
   if (const auto metrics = line.value("metrics")) options.metrics = parse_metrics("metrics", *metrics);
 }
 
@@ -155,6 +168,7 @@ void read_running(const CommandLine& line, AnalyzeRequest& request) {
     if (device->empty())
       throw UsageError("--device needs an index or a part of a name; see 'scene-analyzer devices'");
     request.device = *device;
+    request.pipeline.this_device_only = true;
   }
   request.pipeline.use_analysis_files = !line.flag("no-cache");
   request.pipeline.cache_folder = read_folder(line, "cache-dir");

@@ -90,6 +90,19 @@ mesh::Vector3 parse_vector3(std::string_view option, std::string_view text) {
   return vector;
 }
 
+std::pair<std::uint32_t, std::uint32_t> parse_pixels(std::string_view option, std::string_view text) {
+  constexpr std::uint32_t kMostPixels = 16384;
+  const auto parts = split(text, 'x');
+  const auto pixels = [&](std::size_t i) {
+    const auto value = parts.size() == 2 ? read<std::uint32_t>(parts[i]) : std::nullopt;
+    if (!value || *value < 1 || *value > kMostPixels)
+      refuse(option, text,
+             fmt::format("WIDTHxHEIGHT in pixels, each from 1 to {}, like 512x512", kMostPixels));
+    return *value;
+  };
+  return {pixels(0), pixels(1)};
+}
+
 analysis::MetricSet parse_metrics(std::string_view option, std::string_view text) {
   analysis::MetricSet metrics;
   for (const std::string_view key : split(text, ',')) {

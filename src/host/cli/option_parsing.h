@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "analysis/metric.h"
 #include "mesh/scene.h"
@@ -24,6 +25,9 @@ std::uint64_t parse_integer(std::string_view option, std::string_view text, std:
 
 // "X,Y,Z".
 mesh::Vector3 parse_vector3(std::string_view option, std::string_view text);
+
+// "WxH": width and height in pixels, each 1..16384.
+std::pair<std::uint32_t, std::uint32_t> parse_pixels(std::string_view option, std::string_view text);
 
 // "KEY,KEY,..." of metric keys, each at most once, at least one.
 analysis::MetricSet parse_metrics(std::string_view option, std::string_view text);

@@ -18,8 +18,8 @@ constexpr std::uint64_t kLookAtFreeMemory = std::uint64_t{1} << 20;
   throw OutOfMemory("buffer '" + name + "' needs " + std::to_string(need) + " bytes, but " + limit);
 }
 
-void check_limits(const DeviceInfo& info, const std::string& name, std::uint64_t bytes) {
-  if (bytes > info.max_storage_buffer_bytes)
+void check_limits(const DeviceInfo& info, const std::string& name, std::uint64_t bytes, BufferKind kind) {
+  if (kind == BufferKind::kStorage && bytes > info.max_storage_buffer_bytes)
     refuse(name, bytes,
            "the device's largest storage buffer has " + std::to_string(info.max_storage_buffer_bytes) +
                " bytes (maxStorageBufferRange)");
@@ -37,6 +37,15 @@ void allocate(Device::Native& native, Buffer::Impl& impl, std::uint32_t type, st
   if (allocation_fails(native.faults)) throw vk::OutOfDeviceMemoryError("asked for by a test");
   impl.memory = vk::raii::DeviceMemory(native.device, {.allocationSize = bytes, .memoryTypeIndex = type});
   impl.buffer.bindMemory(*impl.memory, 0);
+}
+
+std::unique_ptr<Buffer::Impl> make_device_buffer(Device::Native& native, const std::string& name,
+                                                 std::uint64_t bytes, BufferKind kind) {
+  check_limits(native.info, name, bytes, kind);  // before rounding, which could overflow
+  const std::uint64_t rounded =
+      (std::max<std::uint64_t>(bytes, 1) + kGranularity - 1) / kGranularity * kGranularity;
+  check_limits(native.info, name, rounded, kind);
+  return make_buffer_impl(native, name, rounded, kind);
 }
 
 }  // namespace
@@ -59,11 +68,13 @@ std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std
   auto impl = std::make_unique<Buffer::Impl>(native, name);
   vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
   if (kind == BufferKind::kStorage) usage |= vk::BufferUsageFlagBits::eStorageBuffer;
+  if (kind == BufferKind::kVertex)
+    usage |= vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eIndexBuffer;
   try {
     impl->buffer = vk::raii::Buffer(native.device, {.size = bytes, .usage = usage});
     const vk::MemoryRequirements need = impl->buffer.getMemoryRequirements();
-    const auto type = kind == BufferKind::kStorage ? native.memory_types.for_buffers(need.memoryTypeBits)
-                                                   : native.memory_types.for_staging(need.memoryTypeBits);
+    const auto type = kind == BufferKind::kStaging ? native.memory_types.for_staging(need.memoryTypeBits)
+                                                   : native.memory_types.for_buffers(need.memoryTypeBits);
     if (!type) throw Error("the device has no memory type for buffer '" + name + "'");
     allocate(native, *impl, *type, need.size);
     if (kind == BufferKind::kStaging || native.memory_types.is_mapped(*type))
@@ -87,12 +98,14 @@ std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std
 }
 
 Buffer Device::make_buffer(const std::string& name, std::uint64_t bytes) {
-  check_limits(native_->info, name, bytes);  // before rounding, which could overflow
-  const std::uint64_t rounded =
-      (std::max<std::uint64_t>(bytes, 1) + kGranularity - 1) / kGranularity * kGranularity;
-  check_limits(native_->info, name, rounded);
   Buffer buffer;
-  buffer.impl_ = make_buffer_impl(*native_, name, rounded, BufferKind::kStorage);
+  buffer.impl_ = make_device_buffer(*native_, name, bytes, BufferKind::kStorage);
+  return buffer;
+}
+
+Buffer Device::make_vertex_buffer(const std::string& name, std::uint64_t bytes) {
+  Buffer buffer;
+  buffer.impl_ = make_device_buffer(*native_, name, bytes, BufferKind::kVertex);
   return buffer;
 }
 

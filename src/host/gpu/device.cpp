@@ -34,12 +34,18 @@ vk::raii::Device create_device(const Device::Native& native) {
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = native.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
   const std::array extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
-  vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = true, .maintenance4 = true};
-  // 64-bit subgroup operations: every Vulkan 1.2 device has them.
-  vk::PhysicalDeviceVulkan12Features features12{
-      .pNext = &features13, .scalarBlockLayout = true, .shaderSubgroupExtendedTypes = true};
-  const vk::PhysicalDeviceFeatures2 features{.pNext = &features12,
-                                             .features = {.shaderFloat64 = true, .shaderInt64 = true}};
+  vk::PhysicalDeviceVulkan13Features features13{
+      .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+  // What is not asked for in refusals_of(), every device of Vulkan 1.3 has.
+  vk::PhysicalDeviceVulkan12Features features12{.pNext = &features13,
+                                                .scalarBlockLayout = true,
+                                                .shaderSubgroupExtendedTypes = true,
+                                                .hostQueryReset = true};
+  const vk::PhysicalDeviceFeatures2 features{
+      .pNext = &features12,
+      .features = {.pipelineStatisticsQuery = native.info.counts_invocations,
+                   .shaderFloat64 = true,
+                   .shaderInt64 = true}};
   vk::DeviceCreateInfo info{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
   info.setPEnabledExtensionNames(extensions);
   return {native.physical_device, info};
@@ -50,11 +56,6 @@ void create_objects(Device::Native& native, const DeviceOptions& options) {
   native.limits = properties.limits;
   native.memory_types = MemoryTypes(native.physical_device.getMemoryProperties(), native.info.type);
   native.queue_family = choose_queue_family(native.physical_device).value();
-  const vk::QueueFamilyProperties family =
-      native.physical_device.getQueueFamilyProperties()[native.queue_family];
-  native.queue_has_graphics = static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
-  native.timestamp_valid_bits = family.timestampValidBits;
-
   native.device = create_device(native);
   native.queue = native.device.getQueue(native.queue_family, 0);
   native.command_pool = {

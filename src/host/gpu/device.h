@@ -17,6 +17,8 @@
 
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
+#include "gpu/raster_pipeline.h"
+#include "gpu/render_target.h"
 
 namespace scene_analyzer::gpu {
 
@@ -35,6 +37,10 @@ struct DeviceInfo {
   std::uint64_t free_memory_bytes = 0;  // VK_EXT_memory_budget (budget - usage) or the operating system's
                                         // free memory on CPU devices; else the heap's size
   std::uint32_t subgroup_size = 0;
+  bool can_draw = false;              // its queue takes graphics commands
+  std::uint32_t timestamp_bits = 0;   // of its queue's counter (timestampValidBits); 0: it has none
+  double timestamp_period_ns = 0;     // of one tick
+  bool counts_invocations = false;    // of shaders, per draw (pipelineStatisticsQuery)
   std::vector<std::string> refusals;  // why it cannot be used, one reason each; empty: usable
 };
 
@@ -66,6 +72,13 @@ class Device {
   // Bindings, push constant size and local size are read from the SPIR-V.
   Kernel make_kernel(const std::string& name, std::span<const std::uint32_t> words,
                      std::span<const std::uint32_t> specialization = {});
+
+  // Throws Error when the device cannot draw, or not so large a picture; OutOfMemory.
+  RenderTarget make_render_target(const std::string& name, std::uint32_t width, std::uint32_t height);
+  RasterPipeline make_raster_pipeline(const std::string& name, const RasterShaders& shaders);
+
+  // Vertices or indices for draws; the same rules as for make_buffer(), but for maxStorageBufferRange.
+  Buffer make_vertex_buffer(const std::string& name, std::uint64_t bytes);
 
   // Synchronous copies; host-visible device memory is written directly, other memory through a bounded
   // staging buffer.

@@ -65,6 +65,17 @@ std::uint32_t usual_memory_type(const vk::raii::PhysicalDevice& device, DeviceTy
   return MemoryTypes(device.getMemoryProperties(), type).for_buffers(~0u).value_or(0);
 }
 
+void describe_drawing(const vk::raii::PhysicalDevice& device, const vk::PhysicalDeviceProperties& properties,
+                      DeviceInfo& info) {
+  const auto queue = choose_queue_family(device);
+  if (!queue) return;
+  const vk::QueueFamilyProperties family = device.getQueueFamilyProperties()[*queue];
+  info.can_draw = static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
+  info.timestamp_bits = family.timestampValidBits;
+  info.timestamp_period_ns = properties.limits.timestampPeriod;
+  info.counts_invocations = device.getFeatures().pipelineStatisticsQuery != 0;
+}
+
 }  // namespace
 
 std::vector<vk::raii::PhysicalDevice> physical_devices(const Instance& instance) {
@@ -112,6 +123,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& device, std::uint32_t
     info.max_storage_buffer_bytes = properties.limits.maxStorageBufferRange;
     info.refusals = refusals_of(device, properties.apiVersion);
     if (properties.apiVersion < VK_API_VERSION_1_3) return info;
+    describe_drawing(device, properties, info);
 
     const auto chain =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,

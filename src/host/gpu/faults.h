@@ -12,7 +12,8 @@ struct Faults {
   std::optional<std::uint32_t>
       allocations_until_failure;  // 0: the next allocation fails as if the driver refused
   bool lose_device_at_next_submit = false;
-  bool stage_copies = false;  // copy through the staging buffer although the memory is host-visible
+  bool clock_runs_backwards = false;  // timestamps are no times
+  bool stage_copies = false;          // copy through the staging buffer although the memory is host-visible
 };
 
 Faults& faults(Device& device);

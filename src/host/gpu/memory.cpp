@@ -48,6 +48,10 @@ std::optional<std::uint32_t> MemoryTypes::for_buffers(std::uint32_t allowed) con
   });
 }
 
+std::optional<std::uint32_t> MemoryTypes::for_images(std::uint32_t allowed) const {
+  return best(allowed, [](vk::MemoryPropertyFlags flags) { return has(flags, Flag::eDeviceLocal) ? 1 : 0; });
+}
+
 std::optional<std::uint32_t> MemoryTypes::for_staging(std::uint32_t allowed) const {
   return best(allowed, [](vk::MemoryPropertyFlags flags) {
     if (!has(flags, kMappable)) return -1;

@@ -20,6 +20,8 @@ class MemoryTypes {
   // Device-local memory; on integrated and CPU devices, where it costs nothing, host-visible too. `allowed`
   // is memoryTypeBits. Absent when no type fits.
   std::optional<std::uint32_t> for_buffers(std::uint32_t allowed) const;
+  // Device-local memory. Absent when no type fits.
+  std::optional<std::uint32_t> for_images(std::uint32_t allowed) const;
   // Host-visible, coherent, preferably cached: read and written by the host.
   std::optional<std::uint32_t> for_staging(std::uint32_t allowed) const;
 

@@ -11,6 +11,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "gpu/device.h"
+#include "gpu/draw_counters.h"
 #include "gpu/faults.h"
 #include "gpu/instance.h"
 #include "gpu/memory.h"
@@ -45,8 +46,6 @@ struct Device::Native {
   vk::PhysicalDeviceLimits limits;
   MemoryTypes memory_types;
   std::uint32_t queue_family = 0;  // compute, and graphics too where one family has both
-  bool queue_has_graphics = false;
-  std::uint32_t timestamp_valid_bits = 0;  // 0: the queue has no timestamps
   bool validation = false;
   bool lost = false;               // every later submission throws DeviceLost
   Faults faults;                   // tests only
@@ -84,11 +83,39 @@ struct Kernel::Impl {
   vk::raii::Pipeline pipeline{nullptr};
 };
 
+inline constexpr vk::Format kColorFormat = vk::Format::eR8G8B8A8Unorm;
+inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+inline constexpr vk::ShaderStageFlags kDrawStages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+struct RenderTarget::Impl {
+  struct Image {
+    vk::raii::DeviceMemory memory{nullptr};
+    vk::raii::Image image{nullptr};
+    vk::raii::ImageView view{nullptr};
+  };
+  std::string name;
+  vk::Extent2D extent;
+  Image color, depth;
+};
+
+struct RasterPipeline::Impl {
+  std::string name;
+  std::uint32_t input_count = 0;
+  std::uint32_t push_constant_bytes = 0;
+  vk::raii::PipelineLayout layout{nullptr};
+  vk::raii::Pipeline pipeline{nullptr};
+};
+
 struct Recorder::Impl {
   Device& device;
   vk::raii::CommandBuffer commands;
-  std::optional<Stopwatch> stopwatch;  // with `profile`, where the queue has timestamps
+  std::optional<Stopwatch> stopwatch;    // with `profile`, where the queue has timestamps
+  std::optional<DrawCounters> counters;  // with count_invocations(), where the device has them
   std::vector<Recorder::Timing> timings;
+  std::vector<Recorder::DrawCounts> draw_counts;
+  bool rendering = false;        // between begin_rendering() and end_rendering()
+  bool drawn = false;            // since the last barrier that waits for draws
   std::uint32_t step_count = 0;  // dispatches, fills and copies recorded; 0: the recording has not begun
 
   Impl(Device& owner, bool profile);
@@ -97,13 +124,15 @@ struct Recorder::Impl {
   const vk::raii::CommandBuffer& next_step();
 };
 
+// The same after and before draws, and images.
+void record_barrier_for_drawing(const vk::raii::CommandBuffer& commands);
 // Every step may read and write what any earlier compute or transfer command wrote, in this submission or
 // before.
 void record_barrier(const vk::raii::CommandBuffer& commands);
 // Makes everything written readable through mapped memory after the fence.
 void record_barrier_to_host(const vk::raii::CommandBuffer& commands);
 
-enum class BufferKind { kStorage, kStaging };
+enum class BufferKind { kStorage, kVertex, kStaging };
 // `bytes` as they are; throws OutOfMemory.
 std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std::string& name,
                                                std::uint64_t bytes, BufferKind kind);

@@ -108,6 +108,13 @@ void record_barrier(const vk::raii::CommandBuffer& commands) {
                                                     Access::eTransferRead | Access::eTransferWrite});
 }
 
+void record_barrier_for_drawing(const vk::raii::CommandBuffer& commands) {
+  record_memory_barrier(commands, {.srcStageMask = Stage::eAllCommands,
+                                   .srcAccessMask = Access::eMemoryWrite,
+                                   .dstStageMask = Stage::eAllCommands,
+                                   .dstAccessMask = Access::eMemoryRead | Access::eMemoryWrite});
+}
+
 void record_barrier_to_host(const vk::raii::CommandBuffer& commands) {
   record_memory_barrier(commands, {.srcStageMask = Stage::eComputeShader | Stage::eAllTransfer,
                                    .srcAccessMask = Access::eShaderWrite | Access::eTransferWrite,
@@ -117,8 +124,8 @@ void record_barrier_to_host(const vk::raii::CommandBuffer& commands) {
 
 Recorder::Impl::Impl(Device& owner, bool profile) : device(owner), commands(owner.native().make_commands()) {
   const Device::Native& native = owner.native();
-  if (profile && native.timestamp_valid_bits != 0)
-    stopwatch.emplace(native.device, native.limits.timestampPeriod, native.timestamp_valid_bits);
+  if (profile && native.info.timestamp_bits != 0)
+    stopwatch.emplace(native.device, native.info.timestamp_period_ns, native.info.timestamp_bits);
 }
 
 const vk::raii::CommandBuffer& Recorder::Impl::next_step() {
@@ -126,8 +133,12 @@ const vk::raii::CommandBuffer& Recorder::Impl::next_step() {
   if (step_count == 0)
     translated("beginning a recording",
                [&] { commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); });
+  if (rendering) wrong("recorder", "end_rendering() was not called");
   ++step_count;
-  record_barrier(commands);
+  if (std::exchange(drawn, false))
+    record_barrier_for_drawing(commands);
+  else
+    record_barrier(commands);
   return commands;
 }
 
@@ -181,10 +192,13 @@ void Recorder::copy(const Buffer& from, std::uint64_t from_offset, const Buffer&
 }
 
 void Recorder::submit_and_wait() {
+  if (impl_->rendering) wrong("recorder", "end_rendering() was not called");
   const std::uint32_t steps = std::exchange(impl_->step_count, 0);
   // Freed on every way out: by then the GPU is done with it, or lost.
   const auto freed_afterwards = std::exchange(kept_, {});
   impl_->timings.clear();
+  impl_->draw_counts.clear();
+  impl_->drawn = false;
   if (steps == 0) return;
   const std::string doing = "running " + std::to_string(steps) + " recorded steps";
   try {
@@ -195,10 +209,15 @@ void Recorder::submit_and_wait() {
     impl_->device.native().submit_and_wait(*impl_->commands, doing);
     if (impl_->stopwatch)
       impl_->timings = translated("reading timestamps", [&] { return impl_->stopwatch->take(); });
+    if (impl_->device.native().faults.clock_runs_backwards)
+      for (Timing& timing : impl_->timings) timing.nanoseconds.reset();
+    if (impl_->counters)
+      impl_->draw_counts = translated("reading draw statistics", [&] { return impl_->counters->take(); });
   } catch (...) {
     // The recording is dropped as a whole, whatever state its command buffer is in. On a lost device nothing
     // can be made, and nothing will be recorded again.
     if (impl_->stopwatch) impl_->stopwatch->clear();
+    if (impl_->counters) impl_->counters->clear();
     if (!impl_->device.native().lost) impl_->commands = impl_->device.native().make_commands();
     throw;
   }

@@ -1,14 +1,17 @@
-// recorder.h — Records dispatches into one command buffer. The one place where barriers, limits and group
-// counts are decided.
+// recorder.h — Records dispatches and draws into one command buffer. The one place where barriers, limits and
+// group counts are decided.
 //
 // A stage's record() records into the caller's Recorder and never submits. Before each dispatch, fill or copy
 // the recorder inserts one global memory barrier against everything recorded before, so stages need no
 // barriers of their own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -22,7 +25,7 @@ struct NoParams {};  // for kernels without a parameter block
 
 class Recorder {
  public:
-  // With `profile`, timestamps bracket every dispatch (see timings()).
+  // With `profile`, timestamps bracket every dispatch and every rendering (see timings()).
   explicit Recorder(Device& device, bool profile = false);
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -53,6 +56,36 @@ class Recorder {
   void copy(const Buffer& from, std::uint64_t from_offset, const Buffer& to, std::uint64_t to_offset,
             std::uint64_t bytes);
 
+  // --- Drawing, on devices that can (DeviceInfo::can_draw) ---
+
+  // Both images. To be called before the first rendering into a target.
+  void clear(const RenderTarget& target, const std::array<float, 4>& color);
+  // Draws go there until end_rendering(), over what is there. Waits for everything recorded before.
+  void begin_rendering(const RenderTarget& target);
+  void end_rendering();
+  struct Draw {
+    std::span<const BufferRange> inputs;  // per location of the vertex shader
+    const Buffer* indices = nullptr;      // 32-bit
+    std::uint32_t first_index = 0, index_count = 0;
+    std::uint32_t first_vertex = 0;  // added to every index
+  };
+  template <typename Params>
+  void draw(const RasterPipeline& pipeline, const Params& params, const Draw& draw) {
+    static_assert(std::is_trivially_copyable_v<Params> && sizeof(Params) <= 128);
+    draw_bytes(pipeline, &params, std::is_empty_v<Params> ? 0 : sizeof(Params), draw);
+  }
+  // The colour image of a target that was rendered to: color_bytes() from `offset`, a multiple of 4.
+  void copy_color(const RenderTarget& from, const Buffer& to, std::uint64_t offset = 0);
+
+  // From now on counts what every draw of this recorder invokes. Does nothing without
+  // DeviceInfo::counts_invocations.
+  void count_invocations();
+  struct DrawCounts {
+    std::uint64_t vertex_invocations = 0, fragment_invocations = 0;
+  };
+  // Of the last submitted recording, one per draw; empty where nothing was counted.
+  const std::vector<DrawCounts>& draw_counts() const;
+
   // Keeps a scratch object (an Array, or a struct of some) alive until the recording has run.
   template <typename T>
   const T& keep(T scratch) {
@@ -67,7 +100,7 @@ class Recorder {
 
   struct Timing {
     std::string kernel;
-    double nanoseconds = 0;
+    std::optional<double> nanoseconds;  // absent when the device's clock ran backwards
   };
   // Of the last submitted recording, in order; empty without `profile` or where the queue has no timestamps.
   const std::vector<Timing>& timings() const;
@@ -78,6 +111,9 @@ class Recorder {
  private:
   void run_bytes(const Kernel& kernel, std::uint64_t threads, const void* params, std::uint32_t params_bytes,
                  std::initializer_list<BufferRange> buffers);
+
+  void draw_bytes(const RasterPipeline& pipeline, const void* params, std::uint32_t params_bytes,
+                  const Draw& draw);
 
   std::unique_ptr<Impl> impl_;
   std::vector<std::shared_ptr<void>> kept_;

@@ -1,10 +1,12 @@
-// stopwatch.h — GPU timestamps around the dispatches of one recording. Reached through gpu/native.h.
+// stopwatch.h — GPU timestamps around the dispatches and renderings of one recording. Reached through
+// gpu/native.h.
 #pragma once
 
 #ifndef VULKAN_HPP_NO_CONSTRUCTORS
 #define VULKAN_HPP_NO_CONSTRUCTORS
 #endif
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
@@ -12,6 +14,10 @@
 #include "gpu/recorder.h"
 
 namespace scene_analyzer::gpu {
+
+// Ticks between two readings of a counter of `valid_bits` bits, which may wrap once in between; absent when
+// it ran backwards.
+std::optional<std::uint64_t> elapsed_ticks(std::uint64_t from, std::uint64_t to, std::uint32_t valid_bits);
 
 class Stopwatch {
  public:
@@ -30,7 +36,7 @@ class Stopwatch {
  private:
   const vk::raii::Device* device_;
   double nanoseconds_per_tick_;
-  std::uint64_t valid_mask_;
+  std::uint32_t valid_bits_;
   std::vector<vk::raii::QueryPool> pools_;  // of kBracketsPerPool brackets each, kept for the next recording
   std::vector<std::string> names_;          // one per bracket
 };

@@ -150,7 +150,21 @@ void BatchRun::measure_geometry() {
     fill_geometry(target(mesh), totals_[mesh]);
     fill_topology(target(mesh), topology[mesh]);
   }
+  if (degenerate_) list_degenerate();
   adjacency_.labels = {};  // components are counted: free them for the stages to come
+}
+
+void BatchRun::list_degenerate() {
+  for (std::size_t mesh = 0; mesh < totals_.size(); ++mesh) {
+    if (totals_[mesh].degenerate == 0) continue;
+    const auto& record = geometry_.records[mesh];
+    const std::vector<double> areas =
+        geometry_.areas.download(stages_.device, record.first_triangle, record.triangle_count);
+    std::vector<std::uint32_t> degenerate;
+    for (std::uint32_t triangle = 0; triangle < areas.size(); ++triangle)
+      if (areas[triangle] == 0) degenerate.push_back(triangle);
+    degenerate_(plan_.geometries[mesh], std::move(degenerate));
+  }
 }
 
 void BatchRun::find_planar_groups() {

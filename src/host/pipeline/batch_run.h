@@ -24,6 +24,7 @@ class BatchRun {
         analysis_(measurement.analysis),
         histograms_(measurement.histograms),
         signals_(measurement.signals),
+        degenerate_(measurement.degenerate),
         step_(std::move(step)) {}
 
   // All stages that run on the device but the spectra, after which the batch holds none of its memory. Start
@@ -42,6 +43,7 @@ class BatchRun {
   bool wants(analysis::Metric metric) const { return metrics_.test(analysis::index_of(metric)); }
 
   void measure_geometry();
+  void list_degenerate();
   void search_signals();
   void find_planar_groups();
   void bound_instances();
@@ -59,6 +61,7 @@ class BatchRun {
   analysis::AssetAnalysis& analysis_;
   const HistogramSink& histograms_;
   const SignalSink& signals_;
+  const DegenerateSink& degenerate_;
   const Step step_;
   geometry::Geometry geometry_;
   adjacency::Adjacency adjacency_;

@@ -35,6 +35,9 @@ using HistogramSink = std::function<void(std::uint32_t geometry, const analysis:
 // above.
 using SignalSink = std::function<void(std::uint32_t geometry, const analysis::SignalSpectrum& signal)>;
 
+// Takes the degenerate triangles of one geometry that has some: indices in its mesh, ascending.
+using DegenerateSink = std::function<void(std::uint32_t geometry, std::vector<std::uint32_t> triangles)>;
+
 // What a measurement reads, and where its results go.
 struct Measurement {
   const mesh::Scene& scene;           // must outlive the measurement,
@@ -44,6 +47,7 @@ struct Measurement {
   Progress progress = {};
   HistogramSink histograms = {};  // without one there are none
   SignalSink signals = {};
+  DegenerateSink degenerate = {};
 };
 
 class Measurer {

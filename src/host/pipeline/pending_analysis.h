@@ -1,14 +1,17 @@
 // pending_analysis.h — An asset that was started and is not finished.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh/scene.h"
 #include "pipeline/pending_measurement.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/scene_timing.h"
 
 namespace scene_analyzer::pipeline {
 
@@ -20,15 +23,23 @@ class PendingAnalysis {
  private:
   friend class Pipeline;
   PendingAnalysis(std::filesystem::path asset, Progress report)
-      : asset_(std::move(asset)), report_(std::move(report)) {}
+      : asset_(std::move(asset)), progress_(std::move(report)) {}
+  // The search for start triangles may end before or after rendering is timed: progress never falls.
+  void report(double fraction, const std::string& step) {
+    done_ = std::max(done_, fraction);
+    if (progress_) progress_(done_, step);
+  }
 
   const std::filesystem::path asset_;
-  const Progress report_;
+  const Progress progress_;
+  double done_ = 0;
   Outcome outcome_;
   mesh::Scene scene_;
-  bool computed_ = false;                            // not read from the analysis file
-  bool unchanged_ = true;                            // while it was read
-  std::unique_ptr<PendingMeasurement> measurement_;  // last: it uses scene and outcome to its end
+  bool computed_ = false;  // not read from the analysis file
+  bool unchanged_ = true;  // while it was read
+  DegenerateTriangles degenerate_;
+  std::vector<analysis::RenderTiming> stored_timings_;  // from the analysis file
+  std::unique_ptr<PendingMeasurement> measurement_;     // last: it uses scene and outcome to its end
 };
 
 }  // namespace scene_analyzer::pipeline

@@ -9,6 +9,7 @@
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
+#include "gpu/error.h"
 #include "pipeline/pending_analysis.h"
 
 namespace scene_analyzer::pipeline {
@@ -21,6 +22,7 @@ using analysis::MetricSet;
 
 // Share of an asset's progress that is over when the measuring begins, and when it ends.
 constexpr double kImported = 0.2;
+constexpr double kMeasuredBeforeTiming = 0.4;
 constexpr double kMeasured = 0.95;
 // Meshes named one by one in a message; a library of thousands would bury everything else.
 constexpr std::size_t kNamedMeshes = 5;
@@ -31,10 +33,11 @@ MetricSet set_of(std::initializer_list<Metric> metrics) {
   return set;
 }
 
-// What this version measures on the GPU and an analysis file may lack. The rendering time is not computed
-// yet: asking for it must not make every file look incomplete.
-const MetricSet kOptionalMetrics = set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation,
-                                           Metric::kCooccurrenceContrast, Metric::kFourierTransform});
+// What is measured on the GPU and an analysis file may lack.
+const MetricSet kOptionalMetrics =
+    set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation, Metric::kCooccurrenceContrast,
+            Metric::kFourierTransform, Metric::kRenderingTime});
+constexpr std::size_t kTiming = index_of(Metric::kRenderingTime);
 // Their stored part is counts, areas and bounds, which every analysis holds.
 const MetricSet kCommonMetrics = set_of({Metric::kRelativeDensity, Metric::kDistance});
 
@@ -88,6 +91,18 @@ void describe(const AssetAnalysis& analysis, std::vector<std::string>& messages)
                                  std::ranges::any_of(analysis.geometries, has_source)
                                      ? "all its triangles are degenerate"
                                      : "it has no triangles"));
+}
+
+bool has_something_to_draw(const AssetAnalysis& analysis) {
+  return std::ranges::any_of(analysis.geometries,
+                             [](const auto& geometry) { return geometry.triangles > 0; });
+}
+
+// Times that are missing may be there on the next try.
+AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
+  std::erase_if(analysis.timings, is_incomplete);
+  analysis.computed.set(kTiming, !analysis.timings.empty());
+  return analysis;
 }
 
 // An asset without any mesh still has its row, so that nobody wonders where it went.
@@ -144,8 +159,8 @@ Outcome Pipeline::finish(std::unique_ptr<PendingAnalysis> pending) {
   return std::move(outcome);
 }
 
-bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) const {
-  pending.report_(0, "checking the analysis file");
+bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
+  pending.report(0, "checking the analysis file");
   const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
   auto loaded = analysis_file::load_valid(file, pending.asset_, options_.parameters);
   Outcome& outcome = pending.outcome_;
@@ -156,11 +171,16 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) const {
     return false;
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
-  if (!covers(stored.computed, wanted) || options_.histograms || options_.signals) {
-    // Computing only what is missing would lose what the next run may ask for.
-    wanted |= stored.computed & kOptionalMetrics;
+  const MetricSet untimed = ~set_of({Metric::kRenderingTime});
+  const auto* timing = wanted[kTiming] ? find_timing(stored.timings, timing_conditions()) : nullptr;
+  if (!covers(stored.computed, wanted & untimed) || options_.histograms || options_.signals ||
+      (wanted[kTiming] && timing == nullptr && has_something_to_draw(stored) && can_time(outcome))) {
+    // Computing only what is missing would lose what the next run may ask for; times are kept as they are.
+    wanted |= stored.computed & kOptionalMetrics & untimed;
+    pending.stored_timings_ = std::move(stored.timings);
     return false;
   }
+  if (timing != nullptr) put_first(stored.timings, analysis::RenderTiming(*timing));
   stored.asset = pending.asset_.string();
   outcome.analysis = std::move(stored);
   outcome.from_file = true;
@@ -168,7 +188,7 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) const {
 }
 
 void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
-  pending.report_(0, "importing");
+  pending.report(0, "importing");
   pending.computed_ = true;
   const FileState before = state_of(pending.asset_);
   pending.scene_ = import::import_asset(pending.asset_, options_.import_limits);
@@ -184,28 +204,34 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   analysis.parameters = options_.parameters;
   analysis.computed = wanted | kCommonMetrics;
   analysis.warnings = scene.warnings;
+  analysis.timings = std::move(pending.stored_timings_);
   if (scene.instances.empty())
     add_empty_row(analysis);
   else
     measure(pending, wanted);
 }
 
+void Pipeline::start_device() {
+  if (measurer_) return;
+  gpu::Device& device = device_();
+  device_info_ = &device.info();
+  device_stamp_ = {device_info_->name, device_info_->driver, gpu::to_string(device_info_->type)};
+  measurer_ = std::make_unique<Measurer>(device);
+  render_timer_ = std::make_unique<render_timing::RenderTimer>(device);
+}
+
 void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
-  if (!measurer_) {
-    pending.report_(kImported, "starting the device");
-    gpu::Device& device = device_();
-    const auto& info = device.info();
-    device_stamp_ = {info.name, info.driver, gpu::to_string(info.type)};
-    measurer_ = std::make_unique<Measurer>(device);
-  }
+  pending.report(kImported, "starting the device");
+  start_device();
   AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis.device = device_stamp_;
+  const double measured = wanted[kTiming] ? kMeasuredBeforeTiming : kMeasured;
   Measurement measurement{.scene = pending.scene_,
                           .analysis = analysis,
                           .parameters = options_.parameters,
                           .metrics = wanted,
-                          .progress = [&report = pending.report_](double fraction, const std::string& step) {
-                            report(kImported + (kMeasured - kImported) * fraction, step);
+                          .progress = [&pending, measured](double fraction, const std::string& step) {
+                            pending.report(kImported + (measured - kImported) * fraction, step);
                           }};
   if (options_.histograms)
     measurement.histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
@@ -215,7 +241,56 @@ void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
     measurement.signals = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
       options_.signals(analysis, geometry, signal);
     };
+  if (wanted[kTiming])
+    measurement.degenerate = [&pending](std::uint32_t geometry, std::vector<std::uint32_t> triangles) {
+      pending.degenerate_[geometry] = std::move(triangles);
+    };
   pending.measurement_ = measurer_->start(std::move(measurement));
+  if (!wanted[kTiming]) return;
+  if (const auto* stored = find_timing(analysis.timings, timing_conditions())) {
+    put_first(analysis.timings, analysis::RenderTiming(*stored));
+    return;
+  }
+  // A device that is the processor itself would be timed with the search beside it.
+  if (device_info_->type == gpu::DeviceType::kCpu) std::exchange(pending.measurement_, nullptr)->finish();
+  time(pending);
+}
+
+analysis::RenderTiming::Conditions Pipeline::timing_conditions() {
+  if (options_.this_device_only) start_device();
+  return {.device = options_.this_device_only ? device_stamp_ : analysis::DeviceStamp(),
+          .width = options_.timing_width,
+          .height = options_.timing_height,
+          .steps = options_.parameters.steps};
+}
+
+bool Pipeline::can_time(Outcome& outcome) {
+  start_device();
+  const std::string reason = render_timing::why_not(*device_info_);
+  if (!reason.empty()) outcome.messages.push_back("rendering time is not measured: " + reason);
+  return reason.empty();
+}
+
+void Pipeline::time(PendingAnalysis& pending) {
+  if (!can_time(pending.outcome_)) return;
+  AssetAnalysis& analysis = *pending.outcome_.analysis;
+  analysis::RenderTiming::Conditions conditions = timing_conditions();
+  conditions.device = device_stamp_;
+  const auto progress = [&](double fraction) {
+    pending.report(kMeasuredBeforeTiming + (kMeasured - kMeasuredBeforeTiming) * fraction, "rendering time");
+  };
+  progress(0);
+  try {
+    analysis::RenderTiming timing = time_scene(*render_timer_, pending.scene_, analysis, pending.degenerate_,
+                                               conditions, options_.timing_budget, progress);
+    timing.timestamp_period_ns = device_info_->timestamp_period_ns;
+    put_first(analysis.timings, std::move(timing));
+  } catch (const gpu::DeviceLost&) {
+    throw;
+  } catch (const gpu::Error& error) {
+    pending.outcome_.messages.push_back(
+        fmt::format("{}: rendering time is not measured: {}", analysis.asset, error.what()));
+  }
 }
 
 void Pipeline::store(PendingAnalysis& pending) {
@@ -223,7 +298,7 @@ void Pipeline::store(PendingAnalysis& pending) {
   // What did not fit may fit on another device, or when other programs have ended: such a result is not the
   // asset's.
   if (is_beyond_a_limit(*outcome.analysis)) return;
-  pending.report_(kMeasured, "writing the analysis file");
+  pending.report(kMeasured, "writing the analysis file");
   if (!pending.unchanged_) {
     outcome.messages.push_back(fmt::format("{}: the file changed while it was read; its analysis is not kept",
                                            pending.asset_.string()));
@@ -231,7 +306,7 @@ void Pipeline::store(PendingAnalysis& pending) {
   }
   const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
   try {
-    analysis_file::store(file, *outcome.analysis);
+    analysis_file::store(file, without_incomplete_timings(*outcome.analysis));
   } catch (const InputError& error) {
     // Results are as good as ever, only the next run takes as long as this one.
     const fs::path folder = options_.cache_folder.value_or(file.parent_path());

@@ -4,6 +4,7 @@
 //   analysis file valid?  -> done, neither import nor GPU is touched
 //   import (worker)       -> Scene
 //   measure (GPU)         -> AssetAnalysis
+//   time (GPU)            -> its rendering times
 //   store analysis file   -> next run is instant
 //
 // start() returns when nothing but start triangles and spectra are missing, so that the next asset can be
@@ -21,6 +22,7 @@
 #include "analysis/analysis.h"
 #include "import/import.h"
 #include "pipeline/measure.h"
+#include "render_timing/render_timer.h"
 
 namespace scene_analyzer::pipeline {
 
@@ -30,6 +32,11 @@ struct Options {
   bool use_analysis_files = true;                     // --no-cache: neither read nor written
   std::optional<std::filesystem::path> cache_folder;  // --cache-dir
   import::Limits import_limits;
+  // Rendering time: pixels, and seconds for all meshes of one asset together.
+  std::uint32_t timing_width = 512, timing_height = 512;
+  double timing_budget = 30;
+  // Rendering times of other devices than the one that `device` gives are not good enough.
+  bool this_device_only = false;
   // Takes histograms as they are computed; `analysis` has all its instances by then. Analysis files hold no
   // histograms: with it every asset is imported and measured.
   std::function<void(const analysis::AssetAnalysis& analysis, std::uint32_t geometry,
@@ -70,14 +77,23 @@ class Pipeline {
  private:
   // Whether a valid analysis file holds all `wanted` metrics. If it holds others only, they are added to
   // `wanted`.
-  bool reuse(PendingAnalysis& pending, analysis::MetricSet& wanted) const;
+  bool reuse(PendingAnalysis& pending, analysis::MetricSet& wanted);
   void compute(PendingAnalysis& pending, analysis::MetricSet wanted);
   void measure(PendingAnalysis& pending, analysis::MetricSet wanted);
   void store(PendingAnalysis& pending);
 
   Options options_;
   std::function<gpu::Device&()> device_;
+  // Makes what depends on the device.
+  void start_device();
+  void time(PendingAnalysis& pending);
+  bool can_time(Outcome& outcome);  // says it in `outcome` when the device cannot
+  // What rendering times have to be made under.
+  analysis::RenderTiming::Conditions timing_conditions();
+
   std::unique_ptr<Measurer> measurer_;
+  std::unique_ptr<render_timing::RenderTimer> render_timer_;
+  const gpu::DeviceInfo* device_info_ = nullptr;
   analysis::DeviceStamp device_stamp_;
   std::set<std::filesystem::path> unwritable_folders_;  // already complained about
 };

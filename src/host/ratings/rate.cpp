@@ -103,6 +103,59 @@ void measure_distances(std::span<const AssetAnalysis> assets, const std::optiona
   }
 }
 
+const analysis::RenderTiming* timing_under(const AssetAnalysis& asset,
+                                           const analysis::RenderTiming::Conditions& conditions) {
+  const auto found = std::ranges::find(asset.timings, conditions, &analysis::RenderTiming::conditions);
+  return found == asset.timings.end() ? nullptr : &*found;
+}
+
+bool has_something_to_time(const AssetAnalysis& asset) {
+  return std::ranges::any_of(asset.geometries, is_rated);
+}
+
+// The first conditions that all assets with a mesh were measured under, in the order of the first of them.
+void choose_timing(std::span<const AssetAnalysis> assets, SceneRating& scene) {
+  std::vector<const AssetAnalysis*> timed;
+  for (const AssetAnalysis& asset : assets)
+    if (has_something_to_time(asset) && !asset.timings.empty()) timed.push_back(&asset);
+  if (timed.empty()) return;
+  for (const analysis::RenderTiming& timing : timed.front()->timings) {
+    const auto has_it = [&](const AssetAnalysis* asset) {
+      return timing_under(*asset, timing.conditions) != nullptr;
+    };
+    if (!std::ranges::all_of(timed, has_it)) continue;
+    scene.timing = timing.conditions;
+    scene.timestamp_period_ns = timing.timestamp_period_ns;
+    return;
+  }
+  scene.mixed_timings = true;
+}
+
+void take_rendering_times(std::span<const AssetAnalysis> assets, SceneRating& scene) {
+  choose_timing(assets, scene);
+  if (!scene.timing) return;
+  for (MeshRating& mesh : scene.meshes) {
+    const analysis::RenderTiming* timing = timing_under(assets[mesh.asset], *scene.timing);
+    if (timing == nullptr || !is_rated(geometry_of(assets, mesh))) continue;
+    mesh.rendering_time = timing->times.at(assets[mesh.asset].instances[mesh.instance].geometry);
+  }
+}
+
+// R_rt of the meshes with a time, against each other.
+void rate_rendering_times(const SceneRating& scene, std::vector<OptionalRatings>& rows) {
+  std::vector<double> values;
+  std::vector<std::size_t> owners;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const auto& time = scene.meshes[i].rendering_time;
+    if (!time || time->mean_ns <= 0) continue;
+    values.push_back(time->mean_ns);
+    owners.push_back(i);
+  }
+  const std::vector<double> rated = rendering_time_ratings(values);
+  for (std::size_t k = 0; k < owners.size(); ++k)
+    rows[owners[k]][index_of(Metric::kRenderingTime)] = rated[k];
+}
+
 // Rates those meshes that have the fact, against each other; `rows` runs along scene.meshes.
 void rate_against_each_other(const SceneRating& scene, std::optional<double> MeshRating::*fact, Metric metric,
                              std::vector<double> (*rule)(std::span<const double>),
@@ -144,12 +197,14 @@ SceneRating rate(std::span<const AssetAnalysis> assets, const Options& options) 
   SceneRating scene = gather(assets);
   measure_distances(assets, options.eye, scene);
   summarise_densities(scene);
+  take_rendering_times(assets, scene);
 
   std::vector<OptionalRatings> rows;
   rows.reserve(scene.meshes.size());
   for (const MeshRating& mesh : scene.meshes) rows.push_back(mesh_ratings(geometry_of(assets, mesh)));
   rate_against_each_other(scene, &MeshRating::density, Metric::kRelativeDensity, relative_densities, rows);
   rate_against_each_other(scene, &MeshRating::distance, Metric::kDistance, distance_ratings, rows);
+  rate_rendering_times(scene, rows);
   for (OptionalRatings& row : rows)
     for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
       if (!options.metrics[i]) row[i] = std::nullopt;

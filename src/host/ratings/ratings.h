@@ -30,11 +30,13 @@ struct Options {
 
 // One mesh instance of the scene, in scene order (assets in the order given, then depth-first node order).
 struct MeshRating {
-  std::size_t asset = 0;             // index of the asset
-  std::size_t instance = 0;          // index within the asset
-  double surface_area = 0;           // world units squared; infinite where the coordinates overflow
-  std::optional<double> density;     // triangles per unit area, finite and > 0; a fact, so also without R_rd
-  std::optional<double> distance;    // D_m, world units, finite; a fact, so also without R_d
+  std::size_t asset = 0;           // index of the asset
+  std::size_t instance = 0;        // index within the asset
+  double surface_area = 0;         // world units squared; infinite where the coordinates overflow
+  std::optional<double> density;   // triangles per unit area, finite and > 0; a fact, so also without R_rd
+  std::optional<double> distance;  // D_m, world units, finite; a fact, so also without R_d
+  // rt_m under SceneRating::timing; absent where it was not measured. A fact, so also without R_rt.
+  std::optional<analysis::RenderingTime> rendering_time;
   OptionalRatings ratings;           // unmapped
   OptionalRatings relative_ratings;  // each mapped alone; R_rd signed
   std::optional<double> aggregate;   // [0,1]; R_rd alone: [-1,1]
@@ -49,7 +51,12 @@ struct SceneRating {
   std::optional<mesh::Vector3> eye;         // given or derived; absent without triangles
   std::optional<double> density_mean;       // mu
   std::optional<double> density_deviation;  // sigma, population
-  bool signed_aggregate = false;            // aggregates are R_rd alone, in [-1,1]: pass it on to color()
+  // What the rendering times were measured under: one device for all assets. Absent without any, and where
+  // assets were measured under different conditions only, which is then said by `mixed_timings`.
+  std::optional<analysis::RenderTiming::Conditions> timing;
+  double timestamp_period_ns = 0;
+  bool mixed_timings = false;
+  bool signed_aggregate = false;  // aggregates are R_rd alone, in [-1,1]: pass it on to color()
 };
 
 // Cost: linear in the number of mesh instances.
@@ -75,6 +82,7 @@ std::vector<double> relative_densities(std::span<const double> densities);     /
 double distance_to(const analysis::Bounds& bounds, const mesh::Vector3& eye);  // 0 inside
 std::vector<double> distance_ratings(std::span<const double> distances);       // [0,1]; distances are finite
 mesh::Vector3 default_eye(const analysis::Bounds& scene);
+std::vector<double> rendering_time_ratings(std::span<const double> times);  // [0,1]; times are finite
 // Null ratings leave both sums; |R_rd| is used when it is combined with another metric of positive weight.
 std::optional<double> aggregate(const OptionalRatings& ratings,
                                 const std::array<double, analysis::kMetricCount>& weights);

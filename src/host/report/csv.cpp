@@ -19,14 +19,17 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-// A mesh with every field that can be null filled in where that changes the columns: signal and bounds.
+// A mesh with every field that can be null filled in where that changes the columns: signal, rendering time
+// and bounds.
 ordered_json full_shape() {
   analysis::AssetAnalysis asset;
   asset.geometries.emplace_back().signal = analysis::SignalSummary();
   asset.instances.emplace_back().bounds = analysis::Bounds();
   SceneReport report;
   report.assets = std::span(&asset, 1);
-  report.rating.meshes.emplace_back();
+  analysis::RenderingTime time;
+  time.mean_ns = 1;
+  report.rating.meshes.emplace_back().rendering_time = time;
   return mesh_row(report, 0);
 }
 

@@ -103,6 +103,32 @@ ordered_json signal(const std::optional<analysis::SignalSummary>& summary, doubl
           {"searches", summary->searches}};
 }
 
+// Per draw; null where nothing was measured.
+ordered_json rendering_time(const std::optional<analysis::RenderingTime>& time) {
+  if (!time || time->mean_ns <= 0) return nullptr;
+  return {{"mean_ns", number(time->mean_ns)},
+          {"confidence_ns", or_null(time->confidence_ns)},
+          {"fastest_ns", number(time->fastest_ns)},
+          {"slowest_ns", number(time->slowest_ns)},
+          {"rounds", time->rounds},
+          {"rotations", time->rotations},
+          {"vertex_invocations", or_null(time->vertex_invocations)},
+          {"fragment_invocations", or_null(time->fragment_invocations)},
+          {"overdraw", or_null(time->overdraw)}};
+}
+
+// What all rendering times of the document were measured under.
+ordered_json render_timing(const ratings::SceneRating& rating) {
+  if (!rating.timing) return nullptr;
+  return {{"device", rating.timing->device.name},
+          {"driver", text_or_null(rating.timing->device.driver)},
+          {"device_type", rating.timing->device.type},
+          {"width", rating.timing->width},
+          {"height", rating.timing->height},
+          {"steps", rating.timing->steps},
+          {"timestamp_period_ns", number(rating.timestamp_period_ns)}};
+}
+
 ordered_json scene(const ratings::SceneRating& rating) {
   return {{"mesh_count", rating.meshes.size()},
           {"unique_triangles", rating.unique_triangles},
@@ -131,6 +157,7 @@ ordered_json document_head(const SceneReport& report) {
   return {{"schema_version", 1},
           {"tool", tool(report)},
           {"parameters", parameters(report)},
+          {"render_timing", render_timing(report.rating)},
           {"scene", scene(report.rating)},
           {"assets", assets(report)}};
 }
@@ -158,6 +185,7 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
   row["boundary_edges"] = or_null(geometry.boundary_edges);
   row["area_classes"] = or_null(geometry.area_classes);
   row["signal"] = signal(geometry.signal, instance.area_scale);
+  row["rendering_time"] = rendering_time(mesh.rendering_time);
   row["surface_area"] = known ? number(mesh.surface_area) : ordered_json();
   row["density"] = or_null(mesh.density);
   row["bounds"] = box(instance.bounds);
@@ -171,6 +199,8 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
         ratings::color(*mesh.aggregate, ratings::ColorMap::kThesis, report.rating.signed_aggregate));
   row["not_analysed"] = text_or_null(geometry.not_analysed);
   row["no_fourier_transform"] = text_or_null(geometry.no_fourier_transform);
+  row["no_rendering_time"] =
+      text_or_null(mesh.rendering_time ? mesh.rendering_time->not_measured : std::string());
   return row;
 }
 

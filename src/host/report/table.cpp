@@ -153,6 +153,20 @@ std::string gap_note(const SceneReport& report) {
       kOpenMark, plural(meshes, "mesh", "meshes"), gap_percent(widest));
 }
 
+// What R_rt means, which is nothing without the device.
+std::string timing_note(const SceneReport& report) {
+  const ratings::SceneRating& rating = report.rating;
+  if (!rating.timing || !report.options.metrics[index_of(Metric::kRenderingTime)]) return "";
+  std::uint64_t not_measured = 0;
+  for (const ratings::MeshRating& mesh : rating.meshes)
+    if (mesh.rendering_time && !mesh.rendering_time->not_measured.empty()) ++not_measured;
+  std::string note =
+      fmt::format("R_rt was measured on {}", encode_utf8(printable(rating.timing->device.name)));
+  if (rating.timing->device.type == "cpu") note += ", a CPU device: it says nothing about a GPU";
+  if (not_measured > 0) note += fmt::format("; {} not measured", plural(not_measured, "mesh", "meshes"));
+  return note + '\n';
+}
+
 std::string totals_line(const SceneReport& report) {
   const ratings::SceneRating& scene = report.rating;
   std::uint64_t not_analysed = 0, no_fourier_transform = 0;
@@ -192,7 +206,7 @@ std::string table(const SceneReport& report, const TableStyle& style) {
                        plural(total - shown, "more mesh", "more meshes"));
   const std::size_t rule = width + kNumbersWidth;
   out += std::string(style.width == 0 ? rule : std::min(rule, style.width), '-') + '\n';
-  return out + totals_line(report) + gap_note(report);
+  return out + totals_line(report) + gap_note(report) + timing_note(report);
 }
 
 }  // namespace scene_analyzer::report

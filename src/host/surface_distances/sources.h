@@ -18,8 +18,8 @@ std::vector<std::uint32_t> hubs(const DualGraph& graph);
 std::vector<std::uint32_t> highest_bounds(const std::vector<std::uint32_t>& open,
                                           const Candidates& candidates, std::size_t count);
 
-// At most `count` of `nodes` (their places there), one by one that which is farthest from all before. `nearest`,
-// per node: about how far it is from sources before these.
+// At most `count` of `nodes` (their places there), one by one that which is farthest from all before.
+// `nearest`, per node: about how far it is from sources before these.
 std::vector<std::size_t> farthest_apart(const std::vector<std::uint32_t>& nodes, std::vector<float> nearest,
                                         const Candidates& candidates, std::size_t count);
 

@@ -5,8 +5,8 @@
 //   1. |F(v) - F(u)| <= n d(u, v): a search from u bounds all others. Enough for scans, whose extremities
 //   stand out.
 //   2. On symmetric shapes all F are nearly equal. There a climb finds a good best first, searches far from
-//   each other close what is clearly worse, and patches of triangles near each other are bounded on contracted
-//   graphs (contraction.h), a few searches for hundreds of triangles.
+//   each other close what is clearly worse, and patches of triangles near each other are bounded on
+//   contracted graphs (contraction.h), a few searches for hundreds of triangles.
 //   3. What is left is searched for real.
 // Totals are compared as doubles with the best one less 1e-9, within which totals count as equal: that covers
 // their rounding (below 1e-12) and keeps all ties. Bounds of patches are counted in whole units, lengths

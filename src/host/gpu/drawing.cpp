@@ -1,0 +1,172 @@
+// The Recorder's draws.
+#include <stdexcept>
+
+#include "gpu/error.h"
+#include "gpu/native.h"
+#include "gpu/recorder.h"
+#include "gpu/vulkan_errors.h"
+
+namespace scene_analyzer::gpu {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+
+[[noreturn]] void wrong(const std::string& where, const std::string& what) {
+  throw std::logic_error(where + ": " + what);
+}
+
+vk::ImageMemoryBarrier2 change_layout(const vk::raii::Image& image, vk::ImageAspectFlags aspect, Layout from,
+                                      Layout to) {
+  return {.srcStageMask = Stage::eAllCommands,
+          .srcAccessMask = Access::eMemoryWrite,
+          .dstStageMask = Stage::eAllCommands,
+          .dstAccessMask = Access::eMemoryRead | Access::eMemoryWrite,
+          .oldLayout = from,
+          .newLayout = to,
+          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .image = *image,
+          .subresourceRange = {aspect, 0, 1, 0, 1}};
+}
+
+void record_layouts(const vk::raii::CommandBuffer& commands,
+                    std::initializer_list<vk::ImageMemoryBarrier2> changes) {
+  commands.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<std::uint32_t>(changes.size()),
+                             .pImageMemoryBarriers = changes.begin()});
+}
+
+void check(const std::string& where, const RasterPipeline::Impl& pipeline, std::uint32_t params_bytes,
+           const Recorder::Draw& draw) {
+  if (params_bytes != pipeline.push_constant_bytes)
+    wrong(where, "got " + std::to_string(params_bytes) + " bytes of parameters, the shaders have " +
+                     std::to_string(pipeline.push_constant_bytes));
+  if (draw.inputs.size() != pipeline.input_count)
+    wrong(where, "got " + std::to_string(draw.inputs.size()) + " buffers, the vertex shader has " +
+                     std::to_string(pipeline.input_count));
+  if (draw.indices == nullptr ||
+      (std::uint64_t{draw.first_index} + draw.index_count) * sizeof(std::uint32_t) > draw.indices->bytes())
+    wrong(where, "indices " + std::to_string(draw.first_index) + " to " +
+                     std::to_string(std::uint64_t{draw.first_index} + draw.index_count) +
+                     " are not in the index buffer");
+  for (const BufferRange& input : draw.inputs)
+    if (input.buffer == nullptr || input.offset_bytes >= input.buffer->bytes())
+      wrong(where, "a vertex buffer is empty");
+}
+
+void record_begin_rendering(const vk::raii::CommandBuffer& commands, const RenderTarget::Impl& images,
+                            vk::AttachmentLoadOp load, const vk::ClearValue& color_value) {
+  const vk::ClearValue farthest{.depthStencil = {.depth = 1}};
+  const vk::RenderingAttachmentInfo color{.imageView = *images.color.view,
+                                          .imageLayout = Layout::eColorAttachmentOptimal,
+                                          .loadOp = load,
+                                          .storeOp = vk::AttachmentStoreOp::eStore,
+                                          .clearValue = color_value};
+  const vk::RenderingAttachmentInfo depth{.imageView = *images.depth.view,
+                                          .imageLayout = Layout::eDepthAttachmentOptimal,
+                                          .loadOp = load,
+                                          .storeOp = vk::AttachmentStoreOp::eStore,
+                                          .clearValue = farthest};
+  const vk::Rect2D whole{.extent = images.extent};
+  commands.beginRendering({.renderArea = whole,
+                           .layerCount = 1,
+                           .colorAttachmentCount = 1,
+                           .pColorAttachments = &color,
+                           .pDepthAttachment = &depth});
+  commands.setViewport(0, vk::Viewport{.width = static_cast<float>(images.extent.width),
+                                       .height = static_cast<float>(images.extent.height),
+                                       .maxDepth = 1});
+  commands.setScissor(0, whole);
+}
+
+}  // namespace
+
+void Recorder::clear(const RenderTarget& target, const std::array<float, 4>& color) {
+  const vk::raii::CommandBuffer& commands = impl_->next_step();
+  const RenderTarget::Impl& images = target.impl();
+  // Whatever the images hold and however it lies there, it may be lost.
+  record_layouts(commands, {change_layout(images.color.image, vk::ImageAspectFlagBits::eColor,
+                                          Layout::eUndefined, Layout::eColorAttachmentOptimal),
+                            change_layout(images.depth.image, vk::ImageAspectFlagBits::eDepth,
+                                          Layout::eUndefined, Layout::eDepthAttachmentOptimal)});
+  record_begin_rendering(commands, images, vk::AttachmentLoadOp::eClear,
+                         vk::ClearValue{.color = {.float32 = color}});
+  commands.endRendering();
+  impl_->drawn = true;
+}
+
+void Recorder::begin_rendering(const RenderTarget& target) {
+  const vk::raii::CommandBuffer& commands = impl_->next_step();
+  record_barrier_for_drawing(commands);
+  if (impl_->stopwatch) {
+    // Around the rendering, with barriers in between: lavapipe draws tile by tile, and a timestamp that is
+    // not kept apart becomes a part of every tile, of which the last one counts.
+    translated("recording a timestamp", [&] { impl_->stopwatch->start(commands, target.impl().name); });
+    record_barrier_for_drawing(commands);
+  }
+  record_begin_rendering(commands, target.impl(), vk::AttachmentLoadOp::eLoad, vk::ClearValue{.color = {}});
+  impl_->rendering = impl_->drawn = true;
+}
+
+void Recorder::end_rendering() {
+  if (!std::exchange(impl_->rendering, false)) wrong("recorder", "begin_rendering() was not called");
+  impl_->commands.endRendering();
+  if (!impl_->stopwatch) return;
+  record_barrier_for_drawing(impl_->commands);
+  impl_->stopwatch->stop(impl_->commands);
+}
+
+void Recorder::draw_bytes(const RasterPipeline& pipeline, const void* params, std::uint32_t params_bytes,
+                          const Draw& draw) {
+  const RasterPipeline::Impl& raster = pipeline.impl();
+  const std::string where = "raster pipeline '" + raster.name + "'";
+  check(where, raster, params_bytes, draw);
+  if (!impl_->rendering) wrong(where, "begin_rendering() was not called");
+  if (draw.index_count == 0) return;
+  const vk::raii::CommandBuffer& commands = impl_->commands;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *raster.pipeline);
+  if (params_bytes != 0)
+    commands.pushConstants<std::byte>(*raster.layout, kDrawStages, 0,
+                                      {params_bytes, static_cast<const std::byte*>(params)});
+  for (std::uint32_t i = 0; i < draw.inputs.size(); ++i)
+    commands.bindVertexBuffers(i, *draw.inputs[i].buffer->impl().buffer, draw.inputs[i].offset_bytes);
+  commands.bindIndexBuffer(*draw.indices->impl().buffer, 0, vk::IndexType::eUint32);
+  translated("recording a draw", [&] {
+    if (impl_->counters) impl_->counters->start(commands);
+  });
+  commands.drawIndexed(draw.index_count, 1, draw.first_index, static_cast<std::int32_t>(draw.first_vertex),
+                       0);
+  if (impl_->counters) impl_->counters->stop(commands);
+}
+
+void Recorder::copy_color(const RenderTarget& from, const Buffer& to, std::uint64_t offset) {
+  const RenderTarget::Impl& images = from.impl();
+  if (offset % 4 != 0 || offset > to.bytes() || from.color_bytes() > to.bytes() - offset)
+    wrong("copy_color", "buffer '" + to.name() + "' of " + std::to_string(to.bytes()) +
+                            " bytes has no room for picture '" + images.name + "' at " +
+                            std::to_string(offset));
+  const vk::raii::CommandBuffer& commands = impl_->next_step();
+  const auto change = [&](Layout old_layout, Layout new_layout) {
+    record_layouts(commands, {change_layout(images.color.image, vk::ImageAspectFlagBits::eColor, old_layout,
+                                            new_layout)});
+  };
+  change(Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal);
+  commands.copyImageToBuffer(
+      *images.color.image, Layout::eTransferSrcOptimal, *to.impl().buffer,
+      vk::BufferImageCopy{.bufferOffset = offset,
+                          .imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                          .imageExtent = {images.extent.width, images.extent.height, 1}});
+  change(Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal);
+}
+
+void Recorder::count_invocations() {
+  const Device::Native& native = impl_->device.native();
+  if (native.info.counts_invocations && !impl_->counters) impl_->counters.emplace(native.device);
+}
+
+const std::vector<Recorder::DrawCounts>& Recorder::draw_counts() const {
+  return impl_->draw_counts;
+}
+
+}  // namespace scene_analyzer::gpu
