@@ -229,7 +229,7 @@ TEST_F(AnalyzeTest, EyeAndWeightsReachTheRatings) {
 }
 
 TEST_F(AnalyzeTest, EveryAssetKeepsItsPlaceWhateverBecomesOfTheOthers) {
-  // The torus' start triangle is still searched for when the assets behind it are done.
+  // The torus' start triangle is still searched for when the bad asset is tried.
   folder_.write("torus.obj", obj_of(test_meshes::torus(100, 60), "torus"));
   folder_.write("cube.obj", cube_obj());
   folder_.write("bad.obj", "no model");

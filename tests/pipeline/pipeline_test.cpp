@@ -315,6 +315,19 @@ TEST_F(PipelineTest, AssetsMayBeStartedBeforeOthersAreFinished) {
   }
 }
 
+TEST_F(PipelineTest, AnAssetThatWasStartedOutlivesTheFailureOfTheNext) {
+  struct Stop {};
+  Pipeline pipeline(options_, shared_device);
+  auto first = pipeline.start(strip());
+  EXPECT_THROW(pipeline.start(folder_.write("other.obj", kStrip),
+                              [](double fraction, const std::string&) {
+                                if (fraction > 0) throw Stop();
+                              }),
+               Stop);
+  EXPECT_TRUE(pipeline.finish(std::move(first)).analysis);
+  EXPECT_TRUE(analyze_from_file(strip()).from_file);
+}
+
 TEST_F(PipelineTest, AnAssetThatIsDroppedLeavesNoAnalysisFile) {
   Pipeline pipeline(options_, shared_device);
   pipeline.start(strip()).reset();

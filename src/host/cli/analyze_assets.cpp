@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -105,49 +106,93 @@ class AssetLoop {
   Analyses run() {
     std::map<fs::path, std::size_t> seen;
     std::vector<std::size_t> first_of(request_.assets.size());
-    for (std::size_t i = 0; i < request_.assets.size(); ++i) {
-      check_interrupt();
-      progress_.start_asset(i, fs::path(request_.assets[i]).filename().string());
-      first_of[i] = seen.try_emplace(identity(request_.assets[i]), i).first->second;
-      if (first_of[i] == i)
-        start(i);
-      else
-        close(i, first_of[i]);
+    try {
+      for (std::size_t i = 0; i < request_.assets.size(); ++i) {
+        check_interrupt();
+        progress_.start_asset(i, fs::path(request_.assets[i]).filename().string());
+        first_of[i] = seen.try_emplace(identity(request_.assets[i]), i).first->second;
+        if (first_of[i] == i)
+          start(i);
+        else
+          close(i, first_of[i]);
+      }
+      finish_all_but(0);
+    } catch (const Interrupted&) {
+      keep_what_is_ready();
+      throw;
     }
-    if (pending_) finish();
     return collect(first_of);
   }
 
  private:
   struct Pending {
-    std::size_t asset;
-    std::chrono::steady_clock::time_point begin;
+    std::size_t asset = 0;
+    std::chrono::steady_clock::duration work{};  // of this asset, without what was done for others meanwhile
     std::unique_ptr<pipeline::PendingAnalysis> analysis;
   };
 
+  // Adds the time that `work` takes to `total`.
+  template <typename Work>
+  static auto timed(std::chrono::steady_clock::duration& total, const Work& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto result = work();
+    total += std::chrono::steady_clock::now() - begin;
+    return result;
+  }
+
   void start(std::size_t asset) {
-    finish_if_ready();
+    finish_ready();
     exports_.start_asset(rows_);
+    begin(asset);
+    // With a search beside it an asset has less memory and less time: so that no result depends on the
+    // neighbour, what failed is tried again alone.
+    if (pending_.size() == 2 && pending_.back().analysis->has_failed()) {
+      pending_.pop_back();
+      finish_all_but(0);
+      begin(asset);
+    }
+    finish_all_but(1);
+    finish_ready();
+  }
+
+  void begin(std::size_t asset) {
     const auto report = [this, asset](double fraction, const std::string& step) {
-      check_interrupt();
+      if (!stopping_) check_interrupt();
       progress_.update(asset, fraction, step);
     };
-    Pending next{asset, std::chrono::steady_clock::now(), pipeline_.start(request_.assets[asset], report)};
+    Pending next;
+    next.asset = asset;
+    next.analysis = timed(next.work, [&] { return pipeline_.start(request_.assets[asset], report); });
+    pending_.push_back(std::move(next));
     check_interrupt();  // Ctrl-C reaches the import worker too: its end is no fault of the asset
-    if (pending_) finish();
-    pending_.emplace(std::move(next));
-    finish_if_ready();
   }
 
   // Files of meshes are named after rows of the report, which are known when all assets before are finished.
-  void finish_if_ready() {
-    if (pending_ && (exports_.wanted() || !pending_->analysis->is_searching())) finish();
+  void finish_ready() {
+    while (!pending_.empty() && (exports_.wanted() || !pending_.front().analysis->is_searching()))
+      finish_first();
   }
 
-  void finish() {
-    Pending done = std::move(*std::exchange(pending_, std::nullopt));
-    pipeline::Outcome outcome = pipeline_.finish(std::move(done.analysis));
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - done.begin;
+  void finish_all_but(std::size_t count) {
+    while (pending_.size() > count) finish_first();
+  }
+
+  // Of a run that is interrupted: analyses that only have to be written.
+  void keep_what_is_ready() {
+    stopping_ = true;
+    while (!pending_.empty()) {
+      if (pending_.front().analysis->is_searching() || pending_.front().analysis->has_failed())
+        pending_.pop_front();
+      else
+        finish_first();
+    }
+  }
+
+  void finish_first() {
+    Pending done = std::move(pending_.front());
+    pending_.pop_front();
+    pipeline::Outcome outcome = timed(done.work, [&] { return pipeline_.finish(std::move(done.analysis)); });
+    const std::chrono::duration<double> seconds = done.work;
     progress_.aside([&] {
       log_outcome(request_.assets[done.asset], outcome, seconds.count());
       all_good_ = exports_.log() && all_good_;
@@ -181,9 +226,11 @@ class AssetLoop {
   pipeline::Pipeline pipeline_;
   Progress progress_;
   std::vector<std::optional<analysis::AssetAnalysis>> analyses_;  // of failed and repeated ones: none
-  std::size_t rows_ = 0;  // of the report, for the assets finished so far
+  std::size_t rows_ =
+      0;  // of the report before the next asset; only right where exports make all go one by one
   bool all_good_ = true;
-  std::optional<Pending> pending_;  // last: it ends before the pipeline
+  bool stopping_ = false;
+  std::deque<Pending> pending_;  // in the order given, two at most; last: they end before the pipeline
 };
 
 }  // namespace

@@ -19,6 +19,12 @@ class PendingAnalysis {
  public:
   // Whether Pipeline::finish would have to wait for a start triangle.
   bool is_searching() const { return measurement_ && measurement_->is_searching(); }
+  // Whether the asset could not be read or measured: Pipeline::finish will say why.
+  bool has_failed() const { return !outcome_.error.empty(); }
+
+  // Its parts refer to each other.
+  PendingAnalysis(const PendingAnalysis&) = delete;
+  PendingAnalysis& operator=(const PendingAnalysis&) = delete;
 
  private:
   friend class Pipeline;

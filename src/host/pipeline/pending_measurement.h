@@ -15,6 +15,10 @@ class PendingMeasurement {
   // Returns when all batches have been on the device. Two of them are searched at the same time, at most.
   PendingMeasurement(Measurer::Stages& stages, Measurement measurement);
 
+  // Its batches refer to it.
+  PendingMeasurement(const PendingMeasurement&) = delete;
+  PendingMeasurement& operator=(const PendingMeasurement&) = delete;
+
   // Whether finish() would have to wait.
   bool is_searching() const;
   // Waits for the search and transforms signals. Throws gpu::DeviceLost.

@@ -38,11 +38,12 @@ void append_start(std::string& out, const analysis::SignalSummary& signal, doubl
   append_text(out, kLeft, 64, "start",
               fmt::format("Start triangle {}, mean distance to the others {:.4g} units",
                           signal.start_triangle, signal.mean_distance * std::sqrt(area_scale)));
-  append_text(out, kLeft, 84, "start",
-              signal.gap > 0
-                  ? fmt::format("Gap {}: another triangle may lie that much farther from the others",
-                                gap_percent(signal.gap))
-                  : "Gap 0: proven to be the triangle farthest from the others");
+  append_text(
+      out, kLeft, 84, "start",
+      signal.gap > 0
+          ? fmt::format("Gap {}: in some part another triangle may lie that much farther from the others",
+                        gap_percent(signal.gap))
+          : "Gap 0: proven to be the triangle farthest from the others");
 }
 
 std::string signal_caption(std::size_t length) {
