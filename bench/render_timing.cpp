@@ -10,10 +10,12 @@
 // SCENE_ANALYZER_DEVICE.
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -46,9 +48,10 @@ struct Settings {
 class BusyProcess {
  public:
   BusyProcess() : child_(fork()) {
+    if (child_ < 0) throw std::runtime_error("no second process can be started");
+    if (child_ == 0) prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (child_ == 0)
-      for (volatile unsigned i = 0;; i = i + 1) {
-      }
+      for (std::atomic<unsigned> i = 0;;) ++i;
   }
   ~BusyProcess() {
     kill(child_, SIGKILL);

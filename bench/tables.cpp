@@ -8,6 +8,8 @@
 #include <fstream>
 #include <thread>
 
+#include "gpu/host_memory.h"
+
 namespace scene_analyzer::bench {
 namespace {
 
@@ -19,13 +21,6 @@ double median_of(std::vector<double> values) {
 
 Elapsed least_of(const Elapsed& a, const Elapsed& b) {
   return {.wall = std::min(a.wall, b.wall), .cpu = std::min(a.cpu, b.cpu)};
-}
-
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown processor";
 }
 
 double per_triangle(double seconds, std::uint64_t triangles) {
@@ -73,7 +68,7 @@ void print_machine(const gpu::DeviceInfo& device) {
   double load = 0;
   std::ifstream("/proc/loadavg") >> load;
   fmt::print("\n{:%Y-%m-%d}, {} ({}), on {} with {} threads; load average {:.1f}.\n",
-             fmt::gmtime(std::time(nullptr)), device.name, device.driver, processor(),
+             fmt::gmtime(std::time(nullptr)), device.name, device.driver, gpu::processor_name(),
              std::thread::hardware_concurrency(), load);
 }
 

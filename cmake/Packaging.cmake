@@ -15,7 +15,7 @@ set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Scene Analyzer developers <scene-analyzer@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_PACKAGE_DESCRIPTION
-    "scene-analyzer reads 3D assets in some forty formats, measures every mesh on a\nVulkan device and rates it by coplanar triangles, density, uneven triangle\nareas and distance, as a table, JSON or CSV.")
+    "scene-analyzer reads 3D assets in some forty formats, measures every mesh on a\nVulkan device and rates it by coplanar triangles, density, uneven triangle\nareas, distance and time to draw, as a table, JSON or CSV.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -74,7 +74,9 @@ inline analysis::GeometryAnalysis full_geometry() {
 inline analysis::RenderTiming full_timing(analysis::DeviceStamp device) {
   analysis::RenderTiming timing;
   timing.conditions = {std::move(device), 640, 1, 4};
+  timing.conditions.device.id = "12ab, a processor";
   timing.timestamp_period_ns = 0.1 + 0.2;
+  timing.budget_seconds = 0.3;
   timing.times.push_back({.mean_ns = 1e-300,
                           .confidence_ns = 0.0,
                           .fastest_ns = 0,

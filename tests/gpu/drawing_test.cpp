@@ -168,7 +168,10 @@ TEST_F(DrawingTest, WrongUseIsRefused) {
   EXPECT_THAT(logic_error_of([&] { recorder.fill(gpu::Array<std::uint32_t>(device(), "a", 1), 0); }),
               HasSubstr("end_rendering"));
   EXPECT_THAT(logic_error_of([&] { recorder.submit_and_wait(); }), HasSubstr("end_rendering"));
-  recorder.end_rendering();
+  // What was recorded is gone, and the recorder is as good as new.
+  recorder.clear(target_, kBlue);
+  render(recorder, whole(), kGreen);
+  EXPECT_THAT(pixels(recorder), testing::Each(kGreenPixel));
   const gpu::Array<std::uint32_t> small(device(), "small", kSize * kSize - 1);
   EXPECT_THAT(logic_error_of([&] { recorder.copy_color(target_, small.buffer(), 16); }),
               HasSubstr("no room"));

@@ -94,6 +94,10 @@ TEST(Rate, RenderingTimesOfTwoDevicesAreNeverMixed) {
   EXPECT_EQ(rating(scene.meshes[1], Metric::kRenderingTime), 1);
   EXPECT_EQ(rating(scene.meshes[2], Metric::kRenderingTime), std::nullopt);
 
+  const std::vector<AssetAnalysis> good = assets;
+  assets[1].timings[1].conditions.device.id = "another machine";
+  EXPECT_TRUE(rate(assets, {}).mixed_timings);
+  assets = good;
   assets[1].timings[1].conditions.steps = 4;
   scene = rate(assets, {});
   EXPECT_TRUE(scene.mixed_timings);

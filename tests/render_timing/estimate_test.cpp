@@ -69,7 +69,7 @@ TEST(Estimate, IntervalsHoldTheTruthAboutNineteenTimesOutOfTwenty) {
       const auto found = estimate(samples);
       held += std::abs(found->mean - 1000) <= *found->confidence ? 1 : 0;
     }
-    EXPECT_GE(held, kTrials * 85 / 100) << rounds;
+    EXPECT_GE(held, kTrials * 90 / 100) << rounds;
     EXPECT_LE(held, kTrials * 99 / 100) << rounds;
   }
 }

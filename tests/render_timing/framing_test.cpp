@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "render_timing/mesh_group.h"
 #include "support/meshes.h"
@@ -76,12 +77,21 @@ TEST(Rotation, TurnsAboutXAndThenAboutY) {
   EXPECT_THAT(rotation(0, 1), ElementsAre(1, 0, 0, 0, 1, 0, 0, 0, 1));
 }
 
-TEST(SpreadRotations, AreEvenAndAscending) {
-  EXPECT_THAT(spread_rotations(1, 64), ElementsAre(0));
-  EXPECT_THAT(spread_rotations(3, 64), ElementsAre(0, 21, 42));
-  std::vector<std::uint32_t> all(64);
-  std::iota(all.begin(), all.end(), 0U);
-  EXPECT_EQ(spread_rotations(64, 64), all);
+TEST(SpreadRotations, RepeatNoneAndLeaveNoAxisOut) {
+  for (const std::uint32_t steps : {1U, 2U, 3U, 4U, 8U, 12U, 256U}) {
+    const std::uint32_t all = steps * steps;
+    std::vector<std::uint32_t> every = spread_rotations(all, all), expected(all);
+    std::ranges::sort(every);
+    std::iota(expected.begin(), expected.end(), 0U);
+    EXPECT_EQ(every, expected) << steps;
+    std::set<std::uint32_t> rows, columns;
+    for (const std::uint32_t index : spread_rotations(std::min(all, 2 * steps), all)) {
+      rows.insert(index / steps);
+      columns.insert(index % steps);
+    }
+    EXPECT_GE(2 * rows.size(), steps) << steps;
+    EXPECT_GE(2 * columns.size(), steps) << steps;
+  }
 }
 
 TEST(GroupMeshes, AsManyTogetherAsFit) {

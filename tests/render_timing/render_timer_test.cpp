@@ -2,7 +2,6 @@
 // How long drawing takes is no matter of tests: see bench/.
 #include "render_timing/render_timer.h"
 
-#include <chrono>
 #include <cmath>
 
 #include "gpu/error.h"
@@ -75,6 +74,31 @@ TEST_F(RenderTimerTest, LittleTimeMeansFewerRotationsTheSameForAll) {
   EXPECT_LT(times[0].rotations, 1600U);
   EXPECT_EQ(times[1].rotations, times[0].rotations);
   EXPECT_EQ(times[0].rounds, times[1].rounds);
+}
+
+TEST_F(RenderTimerTest, RoundsEndWhenTheTimesAreSureAndNoEarlier) {
+  const TimingOptions once{.width = 32, .height = 32, .steps = 1, .budget_seconds = 2, .precision = 1e9};
+  EXPECT_EQ(measure({test_meshes::cube()}, once).at(0).rounds, 6U) << "sure after 5 rounds and after 6";
+  TimingOptions never = once;
+  never.precision = -1;
+  EXPECT_GT(measure({test_meshes::cube()}, never).at(0).rounds, 20U) << "the budget is not spent";
+}
+
+TEST_F(RenderTimerTest, OverdrawIsFragmentsPerCoveredPixelOfAllRotations) {
+  if (!device().info().counts_invocations) GTEST_SKIP() << "the device does not count";
+  // Two squares, one behind the other: from the front and from the back half of what is drawn may be hidden.
+  TestMesh two = test_meshes::grid(1, 1);
+  const auto vertices = static_cast<std::uint32_t>(two.vertex_count());
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    two.vertex(two.positions[3 * v], two.positions[3 * v + 1], two.positions[3 * v + 2] + 0.001F);
+  for (std::size_t i = 0, count = two.indices.size(); i < count; i += 3)
+    two.triangle(two.indices[i] + vertices, two.indices[i + 1] + vertices, two.indices[i + 2] + vertices);
+  const RenderingTime time =
+      measure({two}, {.width = 256, .height = 256, .steps = 2, .budget_seconds = 2}).at(0);
+  ASSERT_EQ(time.rotations, 4U);
+  // Two of the four rotations see the squares from the side that has the second one in front.
+  EXPECT_GT(time.overdraw.value(), 1.3);
+  EXPECT_LT(time.overdraw.value(), 2.3);
 }
 
 TEST_F(RenderTimerTest, NothingToMeasureIsNothing) {

@@ -71,13 +71,14 @@ TEST(Csv, HasAColumnForEveryField) {
   const Table rows = read_csv(text);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].size(),
-            20 + 4 + 5 + 8 + 2 * 7 + 5u);  // 20 plain with signal, bounds and rendering time as one each, 4,
-                                           // 5 and 8 more for them, 2 x 7 ratings, 5
+            20 + 4 + 5 + 10 + 2 * 7 + 5u);  // 20 plain with signal, bounds and rendering time as one each, 4,
+                                            // 5 and 10 more for them, 2 x 7 ratings, 5
   EXPECT_THAT(
       text, ::testing::StartsWith("index,asset,node,mesh,source_triangles,degenerate_triangles,triangles,"));
   EXPECT_THAT(text, ::testing::HasSubstr(
                         ",area_classes,signal.length,signal.start_triangle,signal.mean_distance,signal.gap,"
-                        "signal.searches,rendering_time.mean_ns,rendering_time.confidence_ns,"));
+                        "signal.searches,rendering_time.device,rendering_time.device_type,"
+                        "rendering_time.mean_ns,rendering_time.confidence_ns,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.min.x,bounds.min.y,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.max.z,distance,ratings.polygons_per_planar_group,"));
   EXPECT_THAT(text, ::testing::HasSubstr(

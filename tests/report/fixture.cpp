@@ -41,7 +41,7 @@ analysis::InstanceAnalysis instance(std::uint32_t geometry, std::string node, st
 
 analysis::RenderTiming timing(std::vector<double> means) {
   analysis::RenderTiming result;
-  result.conditions = {{"llvmpipe (LLVM 15)", "Mesa 22.3.6", "cpu"}, 640, 480, 8};
+  result.conditions = {{"llvmpipe (LLVM 15)", "Mesa 22.3.6", "cpu", "12ab, a processor"}, 640, 480, 8};
   result.timestamp_period_ns = 1;
   for (const double mean : means) {
     analysis::RenderingTime& time = result.times.emplace_back();

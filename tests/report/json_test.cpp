@@ -50,6 +50,7 @@ TEST(Json, HasItsFieldsInOrder) {
   const ordered_json timing = {{"device", "llvmpipe (LLVM 15)"},
                                {"driver", "Mesa 22.3.6"},
                                {"device_type", "cpu"},
+                               {"device_id", "12ab, a processor"},
                                {"width", 640},
                                {"height", 480},
                                {"steps", 8},
@@ -95,6 +96,7 @@ TEST(Json, PrintsAMeshWithNumbersAsNumbers) {
   EXPECT_EQ(mesh["ratings"]["cooccurrence_contrast"].get<double>(), 1.0 / 3);  // every digit
   EXPECT_EQ(mesh["ratings"]["fourier_transform"], 0.09168);
   EXPECT_EQ(mesh["ratings"]["rendering_time"], 0);
+  EXPECT_EQ(mesh["rendering_time"]["device_type"], "cpu");
   EXPECT_EQ(mesh["rendering_time"]["mean_ns"], 1500.0);
   EXPECT_EQ(mesh["rendering_time"]["confidence_ns"], 12.5);
   EXPECT_EQ(mesh["rendering_time"]["rounds"], 7);

@@ -95,6 +95,8 @@ struct DeviceStamp {
   std::string name;
   std::string driver;
   std::string type;  // "discrete", "integrated", "virtual", "cpu" or "other"
+  // Tells apart devices of the same name; see gpu::DeviceInfo. Kept with rendering times only.
+  std::string id = {};
   bool operator==(const DeviceStamp&) const = default;
 };
 
@@ -123,6 +125,7 @@ struct RenderTiming {
   };
   Conditions conditions;
   double timestamp_period_ns = 0;    // of the device's clock
+  double budget_seconds = 0;         // that was allowed for all times together
   std::vector<RenderingTime> times;  // one per geometry of the asset
   bool operator==(const RenderTiming&) const = default;
 };

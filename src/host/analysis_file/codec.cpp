@@ -107,6 +107,8 @@ void write_timing(const analysis::RenderTiming& from, v1::RenderTiming& to) {
   to.set_height(from.conditions.height);
   to.set_steps(from.conditions.steps);
   to.set_timestamp_period_ns(from.timestamp_period_ns);
+  to.set_budget_seconds(from.budget_seconds);
+  to.set_device_id(from.conditions.device.id);
   for (const auto& time : from.times) write_time(time, *to.add_times());
 }
 

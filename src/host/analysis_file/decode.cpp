@@ -112,6 +112,8 @@ analysis::RenderTiming read_timing(const v1::RenderTiming& from) {
   to.conditions = {
       {from.device(), from.driver(), from.device_type()}, from.width(), from.height(), from.steps()};
   to.timestamp_period_ns = from.timestamp_period_ns();
+  to.budget_seconds = from.budget_seconds();
+  to.conditions.device.id = from.device_id();
   for (const auto& time : from.times()) to.times.push_back(read_time(time));
   return to;
 }

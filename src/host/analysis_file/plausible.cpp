@@ -125,6 +125,7 @@ Reason timing_reason(const analysis::RenderTiming& timing, std::size_t geometrie
     return "no device, or one of an unknown type";
   if (conditions.width < 1 || conditions.height < 1 || conditions.steps < 1)
     return "no picture or no rotation";
+  if (!is_length(timing.budget_seconds)) return "a budget negative or not finite";
   if (!is_length(timing.timestamp_period_ns)) return "a clock's period negative or not finite";
   if (timing.times.size() != geometries) return "not one time per geometry";
   return first_reason("time", timing.times, time_reason);

@@ -142,6 +142,7 @@ class AssetLoop {
 
   void start(std::size_t asset) {
     finish_ready();
+    if (pipeline_.is_timed_alone()) finish_all_but(0);
     exports_.start_asset(rows_);
     begin(asset);
     // With a search beside it an asset has less memory and less time: so that no result depends on the

@@ -107,6 +107,9 @@ void print_json(const std::vector<gpu::DeviceInfo>& devices) {
                     {"max_storage_buffer_bytes", device.max_storage_buffer_bytes},
                     {"max_allocation_bytes", device.max_allocation_bytes},
                     {"subgroup_size", device.subgroup_size},
+                    {"can_draw", device.can_draw},
+                    {"timestamp_bits", device.timestamp_bits},
+                    {"timestamp_period_ns", device.timestamp_period_ns},
                     {"default", &device == chosen},
                     {"usable", device.refusals.empty()},
                     {"refusals", device.refusals}});

@@ -43,7 +43,8 @@ vk::raii::Device create_device(const Device::Native& native) {
                                                 .hostQueryReset = true};
   const vk::PhysicalDeviceFeatures2 features{
       .pNext = &features12,
-      .features = {.pipelineStatisticsQuery = native.info.counts_invocations,
+      .features = {.fullDrawIndexUint32 = native.physical_device.getFeatures().fullDrawIndexUint32,
+                   .pipelineStatisticsQuery = native.info.counts_invocations,
                    .shaderFloat64 = true,
                    .shaderInt64 = true}};
   vk::DeviceCreateInfo info{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};

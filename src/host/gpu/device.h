@@ -30,6 +30,9 @@ struct DeviceInfo {
   std::string name;         // "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string driver;       // name and version of the driver
   std::string api_version;  // "1.3.230"
+  // The driver's UUID of the device in hexadecimal digits; of a CPU device, where that is the driver's alone,
+  // the processor and its number of threads as well: "6d65...00, AMD EPYC, 2 threads".
+  std::string id;
   DeviceType type = DeviceType::kOther;
   std::uint64_t max_storage_buffer_bytes = 0;  // maxStorageBufferRange
   std::uint64_t max_allocation_bytes = 0;      // maxMemoryAllocationSize
@@ -37,7 +40,7 @@ struct DeviceInfo {
   std::uint64_t free_memory_bytes = 0;  // VK_EXT_memory_budget (budget - usage) or the operating system's
                                         // free memory on CPU devices; else the heap's size
   std::uint32_t subgroup_size = 0;
-  bool can_draw = false;              // its queue takes graphics commands
+  bool can_draw = false;  // its queue takes graphics commands, and it has the formats of RenderTarget
   std::uint32_t timestamp_bits = 0;   // of its queue's counter (timestampValidBits); 0: it has none
   double timestamp_period_ns = 0;     // of one tick
   bool counts_invocations = false;    // of shaders, per draw (pipelineStatisticsQuery)

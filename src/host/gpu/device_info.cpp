@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <thread>
 
 #include "gpu/host_memory.h"
+#include "gpu/native.h"
 #include "gpu/vulkan_errors.h"
 
 namespace scene_analyzer::gpu {
@@ -65,12 +67,29 @@ std::uint32_t usual_memory_type(const vk::raii::PhysicalDevice& device, DeviceTy
   return MemoryTypes(device.getMemoryProperties(), type).for_buffers(~0u).value_or(0);
 }
 
+std::string id_of(const vk::raii::PhysicalDevice& device, DeviceType type) {
+  const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties>();
+  std::string id;
+  for (const std::uint8_t byte : chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID) {
+    constexpr const char* kDigits = "0123456789abcdef";
+    id += {kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  if (type == DeviceType::kCpu)
+    id += ", " + processor_name() + ", " + std::to_string(std::thread::hardware_concurrency()) + " threads";
+  return id;
+}
+
 void describe_drawing(const vk::raii::PhysicalDevice& device, const vk::PhysicalDeviceProperties& properties,
                       DeviceInfo& info) {
   const auto queue = choose_queue_family(device);
   if (!queue) return;
   const vk::QueueFamilyProperties family = device.getQueueFamilyProperties()[*queue];
-  info.can_draw = static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
+  const auto draws_to = [&](vk::Format format, vk::FormatFeatureFlags usage) {
+    return (device.getFormatProperties(format).optimalTilingFeatures & usage) == usage;
+  };
+  info.can_draw = (family.queueFlags & vk::QueueFlagBits::eGraphics) &&
+                  draws_to(kColorFormat, vk::FormatFeatureFlagBits::eColorAttachment) &&
+                  draws_to(kDepthFormat, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
   info.timestamp_bits = family.timestampValidBits;
   info.timestamp_period_ns = properties.limits.timestampPeriod;
   info.counts_invocations = device.getFeatures().pipelineStatisticsQuery != 0;
@@ -131,6 +150,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& device, std::uint32_t
                               vk::PhysicalDeviceMaintenance3Properties>();
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
     info.driver = std::string(driver.driverName.data()) + " " + driver.driverInfo.data();
+    info.id = id_of(device, info.type);
     info.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
     info.max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
     const MemoryTypes memory(device.getMemoryProperties(), info.type);

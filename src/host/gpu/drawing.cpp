@@ -64,7 +64,7 @@ void record_begin_rendering(const vk::raii::CommandBuffer& commands, const Rende
                                           .storeOp = vk::AttachmentStoreOp::eStore,
                                           .clearValue = color_value};
   const vk::RenderingAttachmentInfo depth{.imageView = *images.depth.view,
-                                          .imageLayout = Layout::eDepthAttachmentOptimal,
+                                          .imageLayout = Layout::eDepthStencilAttachmentOptimal,
                                           .loadOp = load,
                                           .storeOp = vk::AttachmentStoreOp::eStore,
                                           .clearValue = farthest};
@@ -89,7 +89,7 @@ void Recorder::clear(const RenderTarget& target, const std::array<float, 4>& col
   record_layouts(commands, {change_layout(images.color.image, vk::ImageAspectFlagBits::eColor,
                                           Layout::eUndefined, Layout::eColorAttachmentOptimal),
                             change_layout(images.depth.image, vk::ImageAspectFlagBits::eDepth,
-                                          Layout::eUndefined, Layout::eDepthAttachmentOptimal)});
+                                          Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal)});
   record_begin_rendering(commands, images, vk::AttachmentLoadOp::eClear,
                          vk::ClearValue{.color = {.float32 = color}});
   commands.endRendering();
@@ -123,7 +123,6 @@ void Recorder::draw_bytes(const RasterPipeline& pipeline, const void* params, st
   const std::string where = "raster pipeline '" + raster.name + "'";
   check(where, raster, params_bytes, draw);
   if (!impl_->rendering) wrong(where, "begin_rendering() was not called");
-  if (draw.index_count == 0) return;
   const vk::raii::CommandBuffer& commands = impl_->commands;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *raster.pipeline);
   if (params_bytes != 0)

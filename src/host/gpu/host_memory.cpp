@@ -73,4 +73,11 @@ std::optional<std::uint64_t> free_host_memory_bytes() {
   return least;
 }
 
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
 }  // namespace scene_analyzer::gpu

@@ -1,4 +1,5 @@
-// host_memory.h — How much main memory this process may still take; the "GPU memory" of a CPU device.
+// host_memory.h — What a CPU device consists of: how much main memory this process may still take, and the
+// processor.
 #pragma once
 
 #include <cstdint>
@@ -13,5 +14,8 @@ std::optional<std::uint64_t> free_host_memory_bytes();
 
 // The bytes behind `MemAvailable:` of a /proc/meminfo text.
 std::optional<std::uint64_t> available_bytes_of_meminfo(const std::string& text);
+
+// "AMD EPYC 7763 64-Core Processor", as the system calls it.
+std::string processor_name();
 
 }  // namespace scene_analyzer::gpu

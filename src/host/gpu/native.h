@@ -119,6 +119,7 @@ struct Recorder::Impl {
   std::uint32_t step_count = 0;  // dispatches, fills and copies recorded; 0: the recording has not begun
 
   Impl(Device& owner, bool profile);
+  void drop();
   // Begins the recording where needed and inserts the barrier against everything before: commands recorded
   // into the result (compute and transfer stages) need no barrier of their own before the first of them.
   const vk::raii::CommandBuffer& next_step();

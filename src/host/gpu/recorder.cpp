@@ -142,6 +142,14 @@ const vk::raii::CommandBuffer& Recorder::Impl::next_step() {
   return commands;
 }
 
+// The recording as a whole, whatever state its command buffer is in. On a lost device nothing can be made,
+// and nothing will be recorded again.
+void Recorder::Impl::drop() {
+  if (stopwatch) stopwatch->clear();
+  if (counters) counters->clear();
+  if (!device.native().lost) commands = device.native().make_commands();
+}
+
 Recorder::Recorder(Device& device, bool profile) : impl_(std::make_unique<Impl>(device, profile)) {}
 Recorder::~Recorder() = default;
 
@@ -192,7 +200,7 @@ void Recorder::copy(const Buffer& from, std::uint64_t from_offset, const Buffer&
 }
 
 void Recorder::submit_and_wait() {
-  if (impl_->rendering) wrong("recorder", "end_rendering() was not called");
+  const bool unfinished = std::exchange(impl_->rendering, false);
   const std::uint32_t steps = std::exchange(impl_->step_count, 0);
   // Freed on every way out: by then the GPU is done with it, or lost.
   const auto freed_afterwards = std::exchange(kept_, {});
@@ -200,6 +208,10 @@ void Recorder::submit_and_wait() {
   impl_->draw_counts.clear();
   impl_->drawn = false;
   if (steps == 0) return;
+  if (unfinished) {
+    impl_->drop();
+    wrong("recorder", "end_rendering() was not called");
+  }
   const std::string doing = "running " + std::to_string(steps) + " recorded steps";
   try {
     translated(doing, [&] {
@@ -214,11 +226,7 @@ void Recorder::submit_and_wait() {
     if (impl_->counters)
       impl_->draw_counts = translated("reading draw statistics", [&] { return impl_->counters->take(); });
   } catch (...) {
-    // The recording is dropped as a whole, whatever state its command buffer is in. On a lost device nothing
-    // can be made, and nothing will be recorded again.
-    if (impl_->stopwatch) impl_->stopwatch->clear();
-    if (impl_->counters) impl_->counters->clear();
-    if (!impl_->device.native().lost) impl_->commands = impl_->device.native().make_commands();
+    impl_->drop();
     throw;
   }
 }

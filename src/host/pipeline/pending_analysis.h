@@ -44,8 +44,9 @@ class PendingAnalysis {
   bool computed_ = false;  // not read from the analysis file
   bool unchanged_ = true;  // while it was read
   DegenerateTriangles degenerate_;
-  std::vector<analysis::RenderTiming> stored_timings_;  // from the analysis file
-  std::unique_ptr<PendingMeasurement> measurement_;     // last: it uses scene and outcome to its end
+  std::vector<analysis::RenderTiming> stored_timings_;   // from the analysis file,
+  std::vector<analysis::FileFingerprint> stored_files_;  // which was made of these
+  std::unique_ptr<PendingMeasurement> measurement_;      // last: it uses scene and outcome to its end
 };
 
 }  // namespace scene_analyzer::pipeline

@@ -105,6 +105,16 @@ AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
   return analysis;
 }
 
+void say_what_is_missing(const analysis::RenderTiming& timing, Outcome& outcome) {
+  const auto missing = [](const auto& time) { return !time.not_measured.empty(); };
+  const auto first = std::ranges::find_if(timing.times, missing);
+  if (first == timing.times.end()) return;
+  const auto count = std::ranges::count_if(timing.times, missing);
+  outcome.messages.push_back(fmt::format("{}: the rendering time of {} {} is not measured: {}",
+                                         outcome.analysis->asset, count, count == 1 ? "mesh" : "meshes",
+                                         first->not_measured));
+}
+
 // An asset without any mesh still has its row, so that nobody wonders where it went.
 void add_empty_row(AssetAnalysis& analysis) {
   analysis.geometries.assign(1, {});
@@ -153,6 +163,7 @@ Outcome Pipeline::finish(std::unique_ptr<PendingAnalysis> pending) {
     if (!outcome.error.empty()) return;
     if (pending->measurement_) pending->measurement_->finish();
     if (pending->computed_ && options_.use_analysis_files) store(*pending);
+    keep_wanted_timings(*outcome.analysis);
     describe(*outcome.analysis, outcome.messages);
   });
   if (!outcome.error.empty()) outcome.analysis.reset();
@@ -172,12 +183,14 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
   const MetricSet untimed = ~set_of({Metric::kRenderingTime});
-  const auto* timing = wanted[kTiming] ? find_timing(stored.timings, timing_conditions()) : nullptr;
+  const auto* timing =
+      wanted[kTiming] ? find_timing(stored.timings, timing_conditions(), options_.timing_budget) : nullptr;
   if (!covers(stored.computed, wanted & untimed) || options_.histograms || options_.signals ||
       (wanted[kTiming] && timing == nullptr && has_something_to_draw(stored) && can_time(outcome))) {
     // Computing only what is missing would lose what the next run may ask for; times are kept as they are.
     wanted |= stored.computed & kOptionalMetrics & untimed;
     pending.stored_timings_ = std::move(stored.timings);
+    pending.stored_files_ = std::move(stored.files);
     return false;
   }
   if (timing != nullptr) put_first(stored.timings, analysis::RenderTiming(*timing));
@@ -204,7 +217,8 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   analysis.parameters = options_.parameters;
   analysis.computed = wanted | kCommonMetrics;
   analysis.warnings = scene.warnings;
-  analysis.timings = std::move(pending.stored_timings_);
+  // Times of the files as they were hashed for them, and of no others.
+  if (analysis.files == pending.stored_files_) analysis.timings = std::move(pending.stored_timings_);
   if (scene.instances.empty())
     add_empty_row(analysis);
   else
@@ -215,9 +229,10 @@ void Pipeline::start_device() {
   if (measurer_) return;
   gpu::Device& device = device_();
   device_info_ = &device.info();
-  device_stamp_ = {device_info_->name, device_info_->driver, gpu::to_string(device_info_->type)};
+  device_stamp_ = {device_info_->name, device_info_->driver, gpu::to_string(device_info_->type),
+                   device_info_->id};
   measurer_ = std::make_unique<Measurer>(device);
-  render_timer_ = std::make_unique<render_timing::RenderTimer>(device);
+  gpu_ = &device;
 }
 
 void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
@@ -247,13 +262,18 @@ void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
     };
   pending.measurement_ = measurer_->start(std::move(measurement));
   if (!wanted[kTiming]) return;
-  if (const auto* stored = find_timing(analysis.timings, timing_conditions())) {
+  if (const auto* stored = find_timing(analysis.timings, timing_conditions(), options_.timing_budget)) {
     put_first(analysis.timings, analysis::RenderTiming(*stored));
     return;
   }
-  // A device that is the processor itself would be timed with the search beside it.
-  if (device_info_->type == gpu::DeviceType::kCpu) std::exchange(pending.measurement_, nullptr)->finish();
+  // Devices that share anything with the processors would be timed with the search beside them.
+  if (is_timed_alone()) std::exchange(pending.measurement_, nullptr)->finish();
   time(pending);
+}
+
+bool Pipeline::is_timed_alone() const {
+  return options_.metrics[kTiming] && device_info_ != nullptr &&
+         device_info_->type != gpu::DeviceType::kDiscrete;
 }
 
 analysis::RenderTiming::Conditions Pipeline::timing_conditions() {
@@ -271,6 +291,13 @@ bool Pipeline::can_time(Outcome& outcome) {
   return reason.empty();
 }
 
+// What was stored under other conditions is not what was asked for.
+void Pipeline::keep_wanted_timings(AssetAnalysis& analysis) {
+  std::erase_if(analysis.timings, [&](const analysis::RenderTiming& timing) {
+    return !options_.metrics[kTiming] || !is_under(timing, timing_conditions());
+  });
+}
+
 void Pipeline::time(PendingAnalysis& pending) {
   if (!can_time(pending.outcome_)) return;
   AssetAnalysis& analysis = *pending.outcome_.analysis;
@@ -281,9 +308,12 @@ void Pipeline::time(PendingAnalysis& pending) {
   };
   progress(0);
   try {
+    if (!render_timer_) render_timer_ = std::make_unique<render_timing::RenderTimer>(*gpu_);
     analysis::RenderTiming timing = time_scene(*render_timer_, pending.scene_, analysis, pending.degenerate_,
                                                conditions, options_.timing_budget, progress);
     timing.timestamp_period_ns = device_info_->timestamp_period_ns;
+    timing.budget_seconds = options_.timing_budget;
+    say_what_is_missing(timing, pending.outcome_);
     put_first(analysis.timings, std::move(timing));
   } catch (const gpu::DeviceLost&) {
     throw;

@@ -1,11 +1,9 @@
 // pipeline.h — Asset path -> analysis, through the analysis file when it is still true: the product's
 // summary.
 //
-//   analysis file valid?  -> done, neither import nor GPU is touched
-//   import (worker)       -> Scene
-//   measure (GPU)         -> AssetAnalysis
-//   time (GPU)            -> its rendering times
-//   store analysis file   -> next run is instant
+//   analysis file valid?  -> done, neither import nor GPU is touched (with this_device_only the GPU is asked
+//   its name) import (worker)       -> Scene measure (GPU)         -> AssetAnalysis time (GPU)            ->
+//   its rendering times store analysis file   -> next run is instant
 //
 // start() returns when nothing but start triangles and spectra are missing, so that the next asset can be
 // imported and measured while the host searches.
@@ -71,8 +69,11 @@ class Pipeline {
 
   // The same in two steps. Each asset that was started holds its scene in memory until it is finished, and
   // its search has threads on all processors: few should be pending. Destroy them before the pipeline.
+  // Where is_timed_alone(), finish what is pending before the next is started.
   std::unique_ptr<PendingAnalysis> start(const std::filesystem::path& asset, const Progress& progress = {});
   Outcome finish(std::unique_ptr<PendingAnalysis> pending);
+  // Whether rendering is timed on a device that a search on the host would slow down.
+  bool is_timed_alone() const;
 
  private:
   // Whether a valid analysis file holds all `wanted` metrics. If it holds others only, they are added to
@@ -87,12 +88,14 @@ class Pipeline {
   // Makes what depends on the device.
   void start_device();
   void time(PendingAnalysis& pending);
+  void keep_wanted_timings(analysis::AssetAnalysis& analysis);
   bool can_time(Outcome& outcome);  // says it in `outcome` when the device cannot
   // What rendering times have to be made under.
   analysis::RenderTiming::Conditions timing_conditions();
 
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<render_timing::RenderTimer> render_timer_;
+  gpu::Device* gpu_ = nullptr;
   const gpu::DeviceInfo* device_info_ = nullptr;
   analysis::DeviceStamp device_stamp_;
   std::set<std::filesystem::path> unwritable_folders_;  // already complained about

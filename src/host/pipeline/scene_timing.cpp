@@ -35,14 +35,23 @@ RenderTiming time_scene(const render_timing::RenderTimer& timer, const mesh::Sce
   return timing;
 }
 
+bool is_under(const RenderTiming& timing, const RenderTiming::Conditions& conditions) {
+  RenderTiming::Conditions wanted = conditions;
+  if (wanted.device.name.empty()) wanted.device = timing.conditions.device;
+  return timing.conditions == wanted;
+}
+
 const RenderTiming* find_timing(const std::vector<RenderTiming>& timings,
-                                const RenderTiming::Conditions& conditions) {
-  const auto fits = [&](const RenderTiming& timing) {
-    RenderTiming::Conditions wanted = conditions;
-    if (wanted.device.name.empty()) wanted.device = timing.conditions.device;
-    return timing.conditions == wanted;
+                                const RenderTiming::Conditions& conditions, double budget_seconds) {
+  const double precision = render_timing::TimingOptions().precision;
+  const auto is_sure = [&](const analysis::RenderingTime& time) {
+    return time.mean_ns == 0 || (time.rotations == conditions.steps * conditions.steps &&
+                                 time.confidence_ns && *time.confidence_ns <= precision * time.mean_ns);
   };
-  const auto found = std::ranges::find_if(timings, fits);
+  const auto found = std::ranges::find_if(timings, [&](const RenderTiming& timing) {
+    return is_under(timing, conditions) &&
+           (timing.budget_seconds >= budget_seconds || std::ranges::all_of(timing.times, is_sure));
+  });
   return found == timings.end() ? nullptr : &*found;
 }
 

@@ -24,9 +24,14 @@ analysis::RenderTiming time_scene(const render_timing::RenderTimer& timer, const
                                   const analysis::RenderTiming::Conditions& conditions, double budget_seconds,
                                   const std::function<void(double fraction)>& progress);
 
-// The timing made under `conditions`; null when there is none. A device without a name stands for any.
+// Whether it was made under `conditions`. A device without a name stands for any.
+bool is_under(const analysis::RenderTiming& timing, const analysis::RenderTiming::Conditions& conditions);
+
+// The first timing made under `conditions` that a budget of so many seconds would not better: it had as much,
+// or stopped earlier because it was sure of all times. Null when there is none.
 const analysis::RenderTiming* find_timing(const std::vector<analysis::RenderTiming>& timings,
-                                          const analysis::RenderTiming::Conditions& conditions);
+                                          const analysis::RenderTiming::Conditions& conditions,
+                                          double budget_seconds);
 
 // Puts `timing` first, in place of one under the same conditions.
 void put_first(std::vector<analysis::RenderTiming>& timings, analysis::RenderTiming timing);

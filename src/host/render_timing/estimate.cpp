@@ -7,10 +7,18 @@
 namespace scene_analyzer::render_timing {
 namespace {
 
-// Of normally distributed values: deviation / median absolute deviation, and the error of a median against
-// that of a mean, sqrt(pi / 2).
+// Of normally distributed values: deviation / median absolute deviation of many values, and the error of a
+// median against that of a mean, sqrt(pi / 2).
 constexpr double kDeviationOfMad = 1.4826;
 constexpr double kErrorOfMedian = 1.2533;
+
+// What that deviation is too small by when there are few values (C. Croux and P. Rousseeuw, "Time-efficient
+// algorithms for two highly robust estimators of scale", 1992).
+double few_values(std::size_t count) {
+  constexpr double kFactors[] = {1.206, 1.200, 1.140, 1.129, 1.107};  // of 5 to 9
+  const auto n = static_cast<double>(count);
+  return count < 10 ? kFactors[count - 5] : n / (n - 0.8);
+}
 
 // Student's t for a two-sided 95 % interval, by the expansion around the normal quantile (Abramowitz and
 // Stegun 26.7.5); within 2 % from 4 degrees of freedom on.
@@ -40,7 +48,8 @@ std::optional<double> confidence(const Samples& samples) {
   const double middle = median(means);
   const auto count = static_cast<double>(means.size());
   for (double& mean : means) mean = std::abs(mean - middle);
-  return student_t(count - 1) * kErrorOfMedian * kDeviationOfMad * median(means) / std::sqrt(count);
+  const double deviation = few_values(means.size()) * kDeviationOfMad * median(means);
+  return student_t(count - 1) * kErrorOfMedian * deviation / std::sqrt(count);
 }
 
 }  // namespace

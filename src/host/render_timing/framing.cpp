@@ -80,9 +80,12 @@ std::array<float, 9> rotation(std::uint32_t index, std::uint32_t steps) {
 }
 
 std::vector<std::uint32_t> spread_rotations(std::uint32_t count, std::uint32_t all) {
+  // Steps of about the golden section leave no direction out for long; coprime to `all` they repeat none.
+  auto step = static_cast<std::uint32_t>(0.6180339887 * all);
+  while (std::gcd(step, all) != 1) ++step;
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t i = 0; i < count; ++i)
-    chosen.push_back(static_cast<std::uint32_t>(std::uint64_t{i} * all / count));
+    chosen.push_back(static_cast<std::uint32_t>(std::uint64_t{i} * step % all));
   return chosen;
 }
 

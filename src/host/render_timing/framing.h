@@ -30,7 +30,7 @@ FramedMesh frame(const TimedMesh& mesh);
 // index = i steps + j. Row-major.
 std::array<float, 9> rotation(std::uint32_t index, std::uint32_t steps);
 
-// `count` of `all` rotations, evenly spread, ascending; count is at least 1 and at most `all`.
+// `count` different ones of `all` rotations, which is at least 1 and at most `all`: spread over both axes.
 std::vector<std::uint32_t> spread_rotations(std::uint32_t count, std::uint32_t all);
 
 }  // namespace scene_analyzer::render_timing

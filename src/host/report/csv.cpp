@@ -30,6 +30,7 @@ ordered_json full_shape() {
   analysis::RenderingTime time;
   time.mean_ns = 1;
   report.rating.meshes.emplace_back().rendering_time = time;
+  report.rating.timing.emplace();
   return mesh_row(report, 0);
 }
 

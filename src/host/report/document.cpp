@@ -104,9 +104,12 @@ ordered_json signal(const std::optional<analysis::SignalSummary>& summary, doubl
 }
 
 // Per draw; null where nothing was measured.
-ordered_json rendering_time(const std::optional<analysis::RenderingTime>& time) {
-  if (!time || time->mean_ns <= 0) return nullptr;
-  return {{"mean_ns", number(time->mean_ns)},
+ordered_json rendering_time(const ratings::SceneRating& rating,
+                            const std::optional<analysis::RenderingTime>& time) {
+  if (!time || time->mean_ns <= 0 || !rating.timing) return nullptr;
+  return {{"device", rating.timing->device.name},
+          {"device_type", rating.timing->device.type},
+          {"mean_ns", number(time->mean_ns)},
           {"confidence_ns", or_null(time->confidence_ns)},
           {"fastest_ns", number(time->fastest_ns)},
           {"slowest_ns", number(time->slowest_ns)},
@@ -123,6 +126,7 @@ ordered_json render_timing(const ratings::SceneRating& rating) {
   return {{"device", rating.timing->device.name},
           {"driver", text_or_null(rating.timing->device.driver)},
           {"device_type", rating.timing->device.type},
+          {"device_id", text_or_null(rating.timing->device.id)},
           {"width", rating.timing->width},
           {"height", rating.timing->height},
           {"steps", rating.timing->steps},
@@ -185,7 +189,7 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
   row["boundary_edges"] = or_null(geometry.boundary_edges);
   row["area_classes"] = or_null(geometry.area_classes);
   row["signal"] = signal(geometry.signal, instance.area_scale);
-  row["rendering_time"] = rendering_time(mesh.rendering_time);
+  row["rendering_time"] = rendering_time(report.rating, mesh.rendering_time);
   row["surface_area"] = known ? number(mesh.surface_area) : ordered_json();
   row["density"] = or_null(mesh.density);
   row["bounds"] = box(instance.bounds);
