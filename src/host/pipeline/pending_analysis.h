@@ -15,6 +15,10 @@
 
 namespace scene_analyzer::pipeline {
 
+// Of an asset's progress: where rendering times begin, and where they, or without them the measuring, end.
+inline constexpr double kTimingBegins = 0.4;
+inline constexpr double kTimingEnds = 0.95;
+
 class PendingAnalysis {
  public:
   // Whether Pipeline::finish would have to wait for a start triangle.

@@ -9,7 +9,7 @@
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
-#include "gpu/error.h"
+#include "pipeline/messages.h"
 #include "pipeline/pending_analysis.h"
 
 namespace scene_analyzer::pipeline {
@@ -22,10 +22,7 @@ using analysis::MetricSet;
 
 // Share of an asset's progress that is over when the measuring begins, and when it ends.
 constexpr double kImported = 0.2;
-constexpr double kMeasuredBeforeTiming = 0.4;
-constexpr double kMeasured = 0.95;
-// Meshes named one by one in a message; a library of thousands would bury everything else.
-constexpr std::size_t kNamedMeshes = 5;
+constexpr double kMeasured = kTimingEnds;
 
 MetricSet set_of(std::initializer_list<Metric> metrics) {
   MetricSet set;
@@ -57,42 +54,6 @@ FileState state_of(const fs::path& file) {
   return {fs::file_size(file, ignored), fs::last_write_time(file, ignored)};
 }
 
-const std::string& name_of(const AssetAnalysis& analysis, std::size_t geometry) {
-  static const std::string kUnused = "not placed by any node";
-  const auto user = std::ranges::find(analysis.instances, geometry, &analysis::InstanceAnalysis::geometry);
-  return user == analysis.instances.end() ? kUnused : user->mesh.empty() ? user->node : user->mesh;
-}
-
-void describe_limits(const AssetAnalysis& analysis, std::vector<std::string>& messages) {
-  std::size_t beyond = 0;
-  for (std::size_t i = 0; i < analysis.geometries.size(); ++i) {
-    const auto& geometry = analysis.geometries[i];
-    if (!is_beyond_a_limit(geometry) || ++beyond > kNamedMeshes) continue;
-    const bool wholly = !geometry.not_analysed.empty();
-    messages.push_back(fmt::format("{}: mesh {} ({}) {}: {}", analysis.asset, geometry.mesh,
-                                   name_of(analysis, i), wholly ? "is not analysed" : "has no Fourier rating",
-                                   wholly ? geometry.not_analysed : geometry.no_fourier_transform));
-  }
-  if (beyond > kNamedMeshes)
-    messages.push_back(fmt::format("{}: {} more meshes are not analysed for such reasons", analysis.asset,
-                                   beyond - kNamedMeshes));
-}
-
-// What a user has to know about these results, whether they were just computed or read.
-void describe(const AssetAnalysis& analysis, std::vector<std::string>& messages) {
-  for (const std::string& warning : analysis.warnings)
-    messages.push_back(fmt::format("{}: {}", analysis.asset, warning));
-  describe_limits(analysis, messages);
-  if (is_beyond_a_limit(analysis)) return;
-  const auto has_triangles = [](const auto& geometry) { return geometry.triangles > 0; };
-  if (std::ranges::any_of(analysis.geometries, has_triangles)) return;
-  const auto has_source = [](const auto& geometry) { return geometry.source_triangles > 0; };
-  messages.push_back(fmt::format("{}: {}; there is nothing to rate", analysis.asset,
-                                 std::ranges::any_of(analysis.geometries, has_source)
-                                     ? "all its triangles are degenerate"
-                                     : "it has no triangles"));
-}
-
 bool has_something_to_draw(const AssetAnalysis& analysis) {
   return std::ranges::any_of(analysis.geometries,
                              [](const auto& geometry) { return geometry.triangles > 0; });
@@ -103,16 +64,6 @@ AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
   std::erase_if(analysis.timings, is_incomplete);
   analysis.computed.set(kTiming, !analysis.timings.empty());
   return analysis;
-}
-
-void say_what_is_missing(const analysis::RenderTiming& timing, Outcome& outcome) {
-  const auto missing = [](const auto& time) { return !time.not_measured.empty(); };
-  const auto first = std::ranges::find_if(timing.times, missing);
-  if (first == timing.times.end()) return;
-  const auto count = std::ranges::count_if(timing.times, missing);
-  outcome.messages.push_back(fmt::format("{}: the rendering time of {} {} is not measured: {}",
-                                         outcome.analysis->asset, count, count == 1 ? "mesh" : "meshes",
-                                         first->not_measured));
 }
 
 // An asset without any mesh still has its row, so that nobody wonders where it went.
@@ -240,7 +191,7 @@ void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
   start_device();
   AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis.device = device_stamp_;
-  const double measured = wanted[kTiming] ? kMeasuredBeforeTiming : kMeasured;
+  const double measured = wanted[kTiming] ? kTimingBegins : kMeasured;
   Measurement measurement{.scene = pending.scene_,
                           .analysis = analysis,
                           .parameters = options_.parameters,
@@ -269,58 +220,6 @@ void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
   // Devices that share anything with the processors would be timed with the search beside them.
   if (is_timed_alone()) std::exchange(pending.measurement_, nullptr)->finish();
   time(pending);
-}
-
-bool Pipeline::is_timed_alone() const {
-  return options_.metrics[kTiming] && device_info_ != nullptr &&
-         device_info_->type != gpu::DeviceType::kDiscrete;
-}
-
-analysis::RenderTiming::Conditions Pipeline::timing_conditions() {
-  if (options_.this_device_only) start_device();
-  return {.device = options_.this_device_only ? device_stamp_ : analysis::DeviceStamp(),
-          .width = options_.timing_width,
-          .height = options_.timing_height,
-          .steps = options_.parameters.steps};
-}
-
-bool Pipeline::can_time(Outcome& outcome) {
-  start_device();
-  const std::string reason = render_timing::why_not(*device_info_);
-  if (!reason.empty()) outcome.messages.push_back("rendering time is not measured: " + reason);
-  return reason.empty();
-}
-
-// What was stored under other conditions is not what was asked for.
-void Pipeline::keep_wanted_timings(AssetAnalysis& analysis) {
-  std::erase_if(analysis.timings, [&](const analysis::RenderTiming& timing) {
-    return !options_.metrics[kTiming] || !is_under(timing, timing_conditions());
-  });
-}
-
-void Pipeline::time(PendingAnalysis& pending) {
-  if (!can_time(pending.outcome_)) return;
-  AssetAnalysis& analysis = *pending.outcome_.analysis;
-  analysis::RenderTiming::Conditions conditions = timing_conditions();
-  conditions.device = device_stamp_;
-  const auto progress = [&](double fraction) {
-    pending.report(kMeasuredBeforeTiming + (kMeasured - kMeasuredBeforeTiming) * fraction, "rendering time");
-  };
-  progress(0);
-  try {
-    if (!render_timer_) render_timer_ = std::make_unique<render_timing::RenderTimer>(*gpu_);
-    analysis::RenderTiming timing = time_scene(*render_timer_, pending.scene_, analysis, pending.degenerate_,
-                                               conditions, options_.timing_budget, progress);
-    timing.timestamp_period_ns = device_info_->timestamp_period_ns;
-    timing.budget_seconds = options_.timing_budget;
-    say_what_is_missing(timing, pending.outcome_);
-    put_first(analysis.timings, std::move(timing));
-  } catch (const gpu::DeviceLost&) {
-    throw;
-  } catch (const gpu::Error& error) {
-    pending.outcome_.messages.push_back(
-        fmt::format("{}: rendering time is not measured: {}", analysis.asset, error.what()));
-  }
 }
 
 void Pipeline::store(PendingAnalysis& pending) {
