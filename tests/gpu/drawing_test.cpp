@@ -7,6 +7,7 @@
 #include "gpu/faults.h"
 #include "gpu/recorder.h"
 #include "gpu/stopwatch.h"
+#include "logic_error.h"
 #include "support/gpu_test.h"
 // Generated:
 #include "flat_frag.spv.h"
@@ -139,16 +140,6 @@ TEST(ElapsedTicks, WrapOnceAndNeverRunBackwards) {
   EXPECT_EQ(gpu::elapsed_ticks(25, 10, 36), std::nullopt);
   EXPECT_EQ(gpu::elapsed_ticks(25, 10, 64), std::nullopt);
   EXPECT_EQ(gpu::elapsed_ticks(kMost, kMost & ((1ULL << 36) - 1), 36), 0U) << "upper bits mean nothing";
-}
-
-template <typename Call>
-std::string logic_error_of(Call call) {
-  try {
-    call();
-  } catch (const std::logic_error& error) {
-    return error.what();
-  }
-  return "no std::logic_error";
 }
 
 TEST_F(DrawingTest, WrongUseIsRefused) {

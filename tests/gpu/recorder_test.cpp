@@ -6,6 +6,7 @@
 
 #include "gpu/error.h"
 #include "gpu/faults.h"
+#include "logic_error.h"
 #include "parameters.h"
 #include "support/gpu_test.h"
 // Generated:
@@ -22,16 +23,6 @@ using testing::Eq;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kUntouched = 0xabcdabcdu;
-
-template <typename Call>
-std::string logic_error_of(Call call) {
-  try {
-    call();
-  } catch (const std::logic_error& error) {
-    return error.what();
-  }
-  return "no std::logic_error";
-}
 
 class RecorderTest : public test::GpuTest {
  protected:

@@ -1,6 +1,4 @@
 // The Recorder's draws.
-#include <stdexcept>
-
 #include "gpu/error.h"
 #include "gpu/native.h"
 #include "gpu/recorder.h"
@@ -12,10 +10,6 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-
-[[noreturn]] void wrong(const std::string& where, const std::string& what) {
-  throw std::logic_error(where + ": " + what);
-}
 
 vk::ImageMemoryBarrier2 change_layout(const vk::raii::Image& image, vk::ImageAspectFlags aspect, Layout from,
                                       Layout to) {

@@ -133,6 +133,9 @@ void record_barrier(const vk::raii::CommandBuffer& commands);
 // Makes everything written readable through mapped memory after the fence.
 void record_barrier_to_host(const vk::raii::CommandBuffer& commands);
 
+// For wrong use by the program itself: throws std::logic_error.
+[[noreturn]] void wrong(const std::string& where, const std::string& what);
+
 enum class BufferKind { kStorage, kVertex, kStaging };
 // `bytes` as they are; throws OutOfMemory.
 std::unique_ptr<Buffer::Impl> make_buffer_impl(Device::Native& native, const std::string& name,

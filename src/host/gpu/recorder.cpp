@@ -17,10 +17,6 @@ using Access = vk::AccessFlagBits2;
 constexpr std::uint64_t kMaxGroups = 65535;
 constexpr std::size_t kMaxBuffers = 32;  // the least maxPushDescriptors
 
-[[noreturn]] void wrong(const std::string& where, const std::string& what) {
-  throw std::logic_error(where + ": " + what);
-}
-
 // The size in bytes, with "to the end" resolved.
 std::uint64_t checked_size(const std::string& where, const BufferRange& range) {
   if (range.buffer == nullptr || !*range.buffer) wrong(where, "a buffer is empty");
@@ -99,6 +95,10 @@ void record_dispatch(const vk::raii::CommandBuffer& commands, const Kernel::Impl
 }
 
 }  // namespace
+
+void wrong(const std::string& where, const std::string& what) {
+  throw std::logic_error(where + ": " + what);
+}
 
 void record_barrier(const vk::raii::CommandBuffer& commands) {
   record_memory_barrier(commands, {.srcStageMask = Stage::eComputeShader | Stage::eAllTransfer,

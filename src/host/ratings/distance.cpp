@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ratings/ratings.h"
+#include "ratings/unit_range.h"
 
 namespace scene_analyzer::ratings {
 
@@ -14,14 +15,7 @@ double distance_to(const analysis::Bounds& bounds, const mesh::Vector3& eye) {
 }
 
 std::vector<double> distance_ratings(std::span<const double> distances) {
-  if (distances.empty()) return {};
-  const auto [nearest, farthest] = std::minmax_element(distances.begin(), distances.end());
-  const double range = *farthest - *nearest;
-  if (range <= 1e-6 * *farthest) return std::vector<double>(distances.size(), 0.5);
-  std::vector<double> result;
-  result.reserve(distances.size());
-  for (const double distance : distances) result.push_back((distance - *nearest) / range);
-  return result;
+  return onto_unit_range(distances, 1e-6);
 }
 
 mesh::Vector3 default_eye(const analysis::Bounds& scene) {

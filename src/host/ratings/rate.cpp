@@ -2,6 +2,7 @@
 // over meshes.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
 #include "ratings/ratings.h"
@@ -141,30 +142,22 @@ void take_rendering_times(std::span<const AssetAnalysis> assets, SceneRating& sc
   }
 }
 
-// R_rt of the meshes with a time, against each other.
-void rate_rendering_times(const SceneRating& scene, std::vector<OptionalRatings>& rows) {
-  std::vector<double> values;
-  std::vector<std::size_t> owners;
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const auto& time = scene.meshes[i].rendering_time;
-    if (!time || time->mean_ns <= 0) continue;
-    values.push_back(time->mean_ns);
-    owners.push_back(i);
-  }
-  const std::vector<double> rated = rendering_time_ratings(values);
-  for (std::size_t k = 0; k < owners.size(); ++k)
-    rows[owners[k]][index_of(Metric::kRenderingTime)] = rated[k];
+std::optional<double> nanoseconds(const MeshRating& mesh) {
+  if (!mesh.rendering_time || mesh.rendering_time->mean_ns <= 0) return std::nullopt;
+  return mesh.rendering_time->mean_ns;
 }
 
 // Rates those meshes that have the fact, against each other; `rows` runs along scene.meshes.
-void rate_against_each_other(const SceneRating& scene, std::optional<double> MeshRating::*fact, Metric metric,
+template <typename Fact>
+void rate_against_each_other(const SceneRating& scene, Fact fact, Metric metric,
                              std::vector<double> (*rule)(std::span<const double>),
                              std::vector<OptionalRatings>& rows) {
   std::vector<double> values;
   std::vector<std::size_t> owners;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (!(scene.meshes[i].*fact)) continue;
-    values.push_back(*(scene.meshes[i].*fact));
+    const std::optional<double> value = std::invoke(fact, scene.meshes[i]);
+    if (!value) continue;
+    values.push_back(*value);
     owners.push_back(i);
   }
   const std::vector<double> rated = rule(values);
@@ -204,7 +197,7 @@ SceneRating rate(std::span<const AssetAnalysis> assets, const Options& options) 
   for (const MeshRating& mesh : scene.meshes) rows.push_back(mesh_ratings(geometry_of(assets, mesh)));
   rate_against_each_other(scene, &MeshRating::density, Metric::kRelativeDensity, relative_densities, rows);
   rate_against_each_other(scene, &MeshRating::distance, Metric::kDistance, distance_ratings, rows);
-  rate_rendering_times(scene, rows);
+  rate_against_each_other(scene, nanoseconds, Metric::kRenderingTime, rendering_time_ratings, rows);
   for (OptionalRatings& row : rows)
     for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
       if (!options.metrics[i]) row[i] = std::nullopt;
