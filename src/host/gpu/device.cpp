@@ -44,6 +44,7 @@ vk::raii::Device create_device(const Device::Native& native) {
   const vk::PhysicalDeviceFeatures2 features{
       .pNext = &features12,
       .features = {.fullDrawIndexUint32 = native.physical_device.getFeatures().fullDrawIndexUint32,
+                   .geometryShader = native.info.numbers_triangles,
                    .pipelineStatisticsQuery = native.info.counts_invocations,
                    .shaderFloat64 = true,
                    .shaderInt64 = true}};

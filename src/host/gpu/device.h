@@ -19,6 +19,7 @@
 #include "gpu/kernel.h"
 #include "gpu/raster_pipeline.h"
 #include "gpu/render_target.h"
+#include "gpu/texture.h"
 
 namespace scene_analyzer::gpu {
 
@@ -44,6 +45,7 @@ struct DeviceInfo {
   std::uint32_t timestamp_bits = 0;   // of its queue's counter (timestampValidBits); 0: it has none
   double timestamp_period_ns = 0;     // of one tick
   bool counts_invocations = false;    // of shaders, per draw (pipelineStatisticsQuery)
+  bool numbers_triangles = false;     // fragment shaders know the triangle's number (geometryShader)
   std::vector<std::string> refusals;  // why it cannot be used, one reason each; empty: usable
 };
 
@@ -76,9 +78,16 @@ class Device {
   Kernel make_kernel(const std::string& name, std::span<const std::uint32_t> words,
                      std::span<const std::uint32_t> specialization = {});
 
-  // Throws Error when the device cannot draw, or not so large a picture; OutOfMemory.
-  RenderTarget make_render_target(const std::string& name, std::uint32_t width, std::uint32_t height);
+  // Throws Error when the device cannot draw, or not so large a picture; OutOfMemory. Every device that draws
+  // takes 1 and 4 samples per pixel.
+  RenderTarget make_render_target(const std::string& name, std::uint32_t width, std::uint32_t height,
+                                  std::uint32_t samples = 1);
   RasterPipeline make_raster_pipeline(const std::string& name, const RasterShaders& shaders);
+
+  // `rgba`: 4 bytes per pixel, rows from the top. Throws Error when the device cannot draw, or not so large a
+  // texture; OutOfMemory. Cost: linear in pixels; memory on the device 16/3 bytes per pixel.
+  Texture make_texture(const std::string& name, std::uint32_t width, std::uint32_t height,
+                       std::span<const std::uint8_t> rgba);
 
   // Vertices or indices for draws; the same rules as for make_buffer(), but for maxStorageBufferRange.
   Buffer make_vertex_buffer(const std::string& name, std::uint64_t bytes);

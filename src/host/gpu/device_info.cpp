@@ -92,7 +92,9 @@ void describe_drawing(const vk::raii::PhysicalDevice& device, const vk::Physical
                   draws_to(kDepthFormat, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
   info.timestamp_bits = family.timestampValidBits;
   info.timestamp_period_ns = properties.limits.timestampPeriod;
-  info.counts_invocations = device.getFeatures().pipelineStatisticsQuery != 0;
+  const vk::PhysicalDeviceFeatures features = device.getFeatures();
+  info.counts_invocations = features.pipelineStatisticsQuery != 0;
+  info.numbers_triangles = features.geometryShader != 0;
 }
 
 }  // namespace

@@ -7,39 +7,18 @@
 namespace scene_analyzer::gpu {
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-
-vk::ImageMemoryBarrier2 change_layout(const vk::raii::Image& image, vk::ImageAspectFlags aspect, Layout from,
-                                      Layout to) {
-  return {.srcStageMask = Stage::eAllCommands,
-          .srcAccessMask = Access::eMemoryWrite,
-          .dstStageMask = Stage::eAllCommands,
-          .dstAccessMask = Access::eMemoryRead | Access::eMemoryWrite,
-          .oldLayout = from,
-          .newLayout = to,
-          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-          .image = *image,
-          .subresourceRange = {aspect, 0, 1, 0, 1}};
-}
-
-void record_layouts(const vk::raii::CommandBuffer& commands,
-                    std::initializer_list<vk::ImageMemoryBarrier2> changes) {
-  commands.pipelineBarrier2({.imageMemoryBarrierCount = static_cast<std::uint32_t>(changes.size()),
-                             .pImageMemoryBarriers = changes.begin()});
-}
+using Aspect = vk::ImageAspectFlagBits;
 
 void check(const std::string& where, const RasterPipeline::Impl& pipeline, std::uint32_t params_bytes,
            const Recorder::Draw& draw) {
   if (params_bytes != pipeline.push_constant_bytes)
     wrong(where, "got " + std::to_string(params_bytes) + " bytes of parameters, the shaders have " +
                      std::to_string(pipeline.push_constant_bytes));
-  if (draw.inputs.size() != pipeline.input_count)
+  if (draw.inputs.size() != pipeline.strides.size())
     wrong(where, "got " + std::to_string(draw.inputs.size()) + " buffers, the vertex shader has " +
-                     std::to_string(pipeline.input_count));
-  if (draw.indices == nullptr ||
+                     std::to_string(pipeline.strides.size()));
+  if (draw.indices != nullptr &&
       (std::uint64_t{draw.first_index} + draw.index_count) * sizeof(std::uint32_t) > draw.indices->bytes())
     wrong(where, "indices " + std::to_string(draw.first_index) + " to " +
                      std::to_string(std::uint64_t{draw.first_index} + draw.index_count) +
@@ -47,11 +26,57 @@ void check(const std::string& where, const RasterPipeline::Impl& pipeline, std::
   for (const BufferRange& input : draw.inputs)
     if (input.buffer == nullptr || input.offset_bytes >= input.buffer->bytes())
       wrong(where, "a vertex buffer is empty");
+  if ((draw.texture != nullptr) != pipeline.reads_texture)
+    wrong(where, draw.texture ? "the fragment shader reads no texture" : "the texture is missing");
+  if (draw.buffers.size() != pipeline.buffer_count)
+    wrong(where, "got " + std::to_string(draw.buffers.size()) + " buffers, the fragment shader has " +
+                     std::to_string(pipeline.buffer_count));
+}
+
+// The fragment shader's texture and buffers.
+void record_descriptors(const vk::raii::CommandBuffer& commands, const RasterPipeline::Impl& pipeline,
+                        const Recorder::Draw& draw) {
+  vk::DescriptorImageInfo image;
+  std::vector<vk::DescriptorBufferInfo> buffers;
+  std::vector<vk::WriteDescriptorSet> writes;
+  if (draw.texture != nullptr) {
+    const Texture::Impl& texture = draw.texture->impl();
+    image = {.sampler = *texture.sampler,
+             .imageView = *texture.image.view,
+             .imageLayout = Layout::eShaderReadOnlyOptimal};
+    writes.push_back({.dstBinding = 0,
+                      .descriptorCount = 1,
+                      .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                      .pImageInfo = &image});
+  }
+  buffers.reserve(draw.buffers.size());
+  for (const BufferRange& range : draw.buffers) {
+    buffers.push_back({.buffer = *range.buffer->impl().buffer,
+                       .offset = range.offset_bytes,
+                       .range = range.size_bytes == 0 ? VK_WHOLE_SIZE : range.size_bytes});
+    writes.push_back({.dstBinding = static_cast<std::uint32_t>(buffers.size()),
+                      .descriptorCount = 1,
+                      .descriptorType = vk::DescriptorType::eStorageBuffer,
+                      .pBufferInfo = &buffers.back()});
+  }
+  if (!writes.empty())
+    commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eGraphics, *pipeline.layout, 0, writes);
+}
+
+void record_vertex_inputs(const vk::raii::CommandBuffer& commands, const RasterPipeline::Impl& pipeline,
+                          const Recorder::Draw& draw) {
+  for (std::uint32_t i = 0; i < draw.inputs.size(); ++i) {
+    const bool single = (draw.single_inputs >> i & 1) != 0;
+    const vk::DeviceSize stride = single ? 0 : pipeline.strides[i];
+    commands.bindVertexBuffers2(i, *draw.inputs[i].buffer->impl().buffer, draw.inputs[i].offset_bytes,
+                                nullptr, stride);
+  }
 }
 
 void record_begin_rendering(const vk::raii::CommandBuffer& commands, const RenderTarget::Impl& images,
-                            vk::AttachmentLoadOp load, const vk::ClearValue& color_value) {
-  const vk::ClearValue farthest{.depthStencil = {.depth = 1}};
+                            vk::AttachmentLoadOp load, const vk::ClearValue& color_value,
+                            float farthest_depth) {
+  const vk::ClearValue farthest{.depthStencil = {.depth = farthest_depth}};
   const vk::RenderingAttachmentInfo color{.imageView = *images.color.view,
                                           .imageLayout = Layout::eColorAttachmentOptimal,
                                           .loadOp = load,
@@ -76,16 +101,16 @@ void record_begin_rendering(const vk::raii::CommandBuffer& commands, const Rende
 
 }  // namespace
 
-void Recorder::clear(const RenderTarget& target, const std::array<float, 4>& color) {
+void Recorder::clear(const RenderTarget& target, const std::array<float, 4>& color, float depth) {
   const vk::raii::CommandBuffer& commands = impl_->next_step();
   const RenderTarget::Impl& images = target.impl();
   // Whatever the images hold and however it lies there, it may be lost.
-  record_layouts(commands, {change_layout(images.color.image, vk::ImageAspectFlagBits::eColor,
-                                          Layout::eUndefined, Layout::eColorAttachmentOptimal),
-                            change_layout(images.depth.image, vk::ImageAspectFlagBits::eDepth,
-                                          Layout::eUndefined, Layout::eDepthStencilAttachmentOptimal)});
+  record_layouts(commands, {change_layout(images.color, Aspect::eColor, Layout::eUndefined,
+                                          Layout::eColorAttachmentOptimal),
+                            change_layout(images.depth, Aspect::eDepth, Layout::eUndefined,
+                                          Layout::eDepthStencilAttachmentOptimal)});
   record_begin_rendering(commands, images, vk::AttachmentLoadOp::eClear,
-                         vk::ClearValue{.color = {.float32 = color}});
+                         vk::ClearValue{.color = {.float32 = color}}, depth);
   commands.endRendering();
   impl_->drawn = true;
 }
@@ -99,12 +124,14 @@ void Recorder::begin_rendering(const RenderTarget& target) {
     translated("recording a timestamp", [&] { impl_->stopwatch->start(commands, target.impl().name); });
     record_barrier_for_drawing(commands);
   }
-  record_begin_rendering(commands, target.impl(), vk::AttachmentLoadOp::eLoad, vk::ClearValue{.color = {}});
-  impl_->rendering = impl_->drawn = true;
+  record_begin_rendering(commands, target.impl(), vk::AttachmentLoadOp::eLoad, vk::ClearValue{.color = {}},
+                         0);
+  impl_->rendering = &target.impl();
+  impl_->drawn = true;
 }
 
 void Recorder::end_rendering() {
-  if (!std::exchange(impl_->rendering, false)) wrong("recorder", "begin_rendering() was not called");
+  if (!std::exchange(impl_->rendering, nullptr)) wrong("recorder", "begin_rendering() was not called");
   impl_->commands.endRendering();
   if (!impl_->stopwatch) return;
   record_barrier_for_drawing(impl_->commands);
@@ -117,19 +144,26 @@ void Recorder::draw_bytes(const RasterPipeline& pipeline, const void* params, st
   const std::string where = "raster pipeline '" + raster.name + "'";
   check(where, raster, params_bytes, draw);
   if (!impl_->rendering) wrong(where, "begin_rendering() was not called");
+  if (impl_->rendering->samples != raster.samples)
+    wrong(where, "draws " + std::to_string(raster.samples) + " samples per pixel, picture '" +
+                     impl_->rendering->name + "' has " + std::to_string(impl_->rendering->samples));
   const vk::raii::CommandBuffer& commands = impl_->commands;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *raster.pipeline);
   if (params_bytes != 0)
     commands.pushConstants<std::byte>(*raster.layout, kDrawStages, 0,
                                       {params_bytes, static_cast<const std::byte*>(params)});
-  for (std::uint32_t i = 0; i < draw.inputs.size(); ++i)
-    commands.bindVertexBuffers(i, *draw.inputs[i].buffer->impl().buffer, draw.inputs[i].offset_bytes);
-  commands.bindIndexBuffer(*draw.indices->impl().buffer, 0, vk::IndexType::eUint32);
+  record_vertex_inputs(commands, raster, draw);
+  record_descriptors(commands, raster, draw);
+  if (draw.indices != nullptr)
+    commands.bindIndexBuffer(*draw.indices->impl().buffer, 0, vk::IndexType::eUint32);
   translated("recording a draw", [&] {
     if (impl_->counters) impl_->counters->start(commands);
   });
-  commands.drawIndexed(draw.index_count, 1, draw.first_index, static_cast<std::int32_t>(draw.first_vertex),
-                       0);
+  if (draw.indices != nullptr)
+    commands.drawIndexed(draw.index_count, 1, draw.first_index, static_cast<std::int32_t>(draw.first_vertex),
+                         0);
+  else
+    commands.draw(draw.index_count, 1, draw.first_vertex, 0);
   if (impl_->counters) impl_->counters->stop(commands);
 }
 
@@ -140,17 +174,24 @@ void Recorder::copy_color(const RenderTarget& from, const Buffer& to, std::uint6
                             " bytes has no room for picture '" + images.name + "' at " +
                             std::to_string(offset));
   const vk::raii::CommandBuffer& commands = impl_->next_step();
-  const auto change = [&](Layout old_layout, Layout new_layout) {
-    record_layouts(commands, {change_layout(images.color.image, vk::ImageAspectFlagBits::eColor, old_layout,
-                                            new_layout)});
+  const auto change = [&](const Image& image, Layout old_layout, Layout new_layout) {
+    record_layouts(commands, {change_layout(image, Aspect::eColor, old_layout, new_layout)});
   };
-  change(Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal);
+  constexpr vk::ImageSubresourceLayers kWhole{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
+  const vk::Extent3D extent{images.extent.width, images.extent.height, 1};
+  change(images.color, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal);
+  const Image& source = images.samples > 1 ? images.resolved : images.color;
+  if (images.samples > 1) {
+    change(images.resolved, Layout::eUndefined, Layout::eTransferDstOptimal);
+    commands.resolveImage(
+        *images.color.image, Layout::eTransferSrcOptimal, *images.resolved.image, Layout::eTransferDstOptimal,
+        vk::ImageResolve{.srcSubresource = kWhole, .dstSubresource = kWhole, .extent = extent});
+    change(images.resolved, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
+  }
   commands.copyImageToBuffer(
-      *images.color.image, Layout::eTransferSrcOptimal, *to.impl().buffer,
-      vk::BufferImageCopy{.bufferOffset = offset,
-                          .imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                          .imageExtent = {images.extent.width, images.extent.height, 1}});
-  change(Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal);
+      *source.image, Layout::eTransferSrcOptimal, *to.impl().buffer,
+      vk::BufferImageCopy{.bufferOffset = offset, .imageSubresource = kWhole, .imageExtent = extent});
+  change(images.color, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal);
 }
 
 void Recorder::count_invocations() {

@@ -85,24 +85,49 @@ struct Kernel::Impl {
 
 inline constexpr vk::Format kColorFormat = vk::Format::eR8G8B8A8Unorm;
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+// 1, 2, 4, ...: the bits are the numbers.
+inline vk::SampleCountFlagBits sample_count(std::uint32_t samples) {
+  return static_cast<vk::SampleCountFlagBits>(samples);
+}
 inline constexpr vk::ShaderStageFlags kDrawStages =
     vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
+// An image with memory of its own, and a view of all of it.
+struct Image {
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Image image{nullptr};
+  vk::raii::ImageView view{nullptr};
+};
+// Two-dimensional, of one layer; `aspect` is what the view shows. Throws vk::SystemError, Error.
+Image make_image(Device::Native& native, vk::ImageCreateInfo info, vk::ImageAspectFlags aspect);
+// From whatever was recorded before to whatever comes after, all levels.
+vk::ImageMemoryBarrier2 change_layout(const Image& image, vk::ImageAspectFlags aspect, vk::ImageLayout from,
+                                      vk::ImageLayout to);
+void record_layouts(const vk::raii::CommandBuffer& commands,
+                    std::initializer_list<vk::ImageMemoryBarrier2> changes);
+
 struct RenderTarget::Impl {
-  struct Image {
-    vk::raii::DeviceMemory memory{nullptr};
-    vk::raii::Image image{nullptr};
-    vk::raii::ImageView view{nullptr};
-  };
   std::string name;
   vk::Extent2D extent;
+  std::uint32_t samples = 1;
   Image color, depth;
+  Image resolved;  // of several samples: what copy_color() copies
+};
+
+struct Texture::Impl {
+  std::string name;
+  Image image;
+  vk::raii::Sampler sampler{nullptr};
 };
 
 struct RasterPipeline::Impl {
   std::string name;
-  std::uint32_t input_count = 0;
+  std::vector<std::uint32_t> strides;  // of the vertex shader's inputs, bytes
   std::uint32_t push_constant_bytes = 0;
+  bool reads_texture = false;
+  std::uint32_t buffer_count = 0;
+  std::uint32_t samples = 1;
+  vk::raii::DescriptorSetLayout set_layout{nullptr};
   vk::raii::PipelineLayout layout{nullptr};
   vk::raii::Pipeline pipeline{nullptr};
 };
@@ -114,8 +139,8 @@ struct Recorder::Impl {
   std::optional<DrawCounters> counters;  // with count_invocations(), where the device has them
   std::vector<Recorder::Timing> timings;
   std::vector<Recorder::DrawCounts> draw_counts;
-  bool rendering = false;        // between begin_rendering() and end_rendering()
-  bool drawn = false;            // since the last barrier that waits for draws
+  const RenderTarget::Impl* rendering = nullptr;  // between begin_rendering() and end_rendering()
+  bool drawn = false;                             // since the last barrier that waits for draws
   std::uint32_t step_count = 0;  // dispatches, fills and copies recorded; 0: the recording has not begun
 
   Impl(Device& owner, bool profile);

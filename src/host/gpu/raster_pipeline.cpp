@@ -10,23 +10,47 @@
 namespace scene_analyzer::gpu {
 namespace {
 
-struct Layout {
-  vk::Format format;
-  std::uint32_t stride;
-};
-
-Layout layout_of(VertexFormat format) {
+vk::Format format_of(VertexFormat format) {
   switch (format) {
     case VertexFormat::kFloat3:
-      return {vk::Format::eR32G32B32Sfloat, 12};
+      return vk::Format::eR32G32B32Sfloat;
+    case VertexFormat::kUint1:
+      return vk::Format::eR32Uint;
+    case VertexFormat::kUnorm16x2:
+      return vk::Format::eR16G16Unorm;
   }
   throw Error("a vertex format that no shader reads");
 }
 
-vk::raii::PipelineLayout make_layout(const vk::raii::Device& device, std::uint32_t push_constant_bytes) {
+std::uint32_t stride_of(VertexFormat format) {
+  return format == VertexFormat::kFloat3 ? 12 : 4;
+}
+
+vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, const RasterShaders& shaders) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  if (shaders.reads_texture)
+    bindings.push_back({.binding = 0,
+                        .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                        .descriptorCount = 1,
+                        .stageFlags = vk::ShaderStageFlagBits::eFragment});
+  for (std::uint32_t i = 1; i <= shaders.buffer_count; ++i)
+    bindings.push_back({.binding = i,
+                        .descriptorType = vk::DescriptorType::eStorageBuffer,
+                        .descriptorCount = 1,
+                        .stageFlags = vk::ShaderStageFlagBits::eFragment});
+  vk::DescriptorSetLayoutCreateInfo info{.flags = vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR};
+  info.setBindings(bindings);
+  return {device, info};
+}
+
+vk::raii::PipelineLayout make_layout(const vk::raii::Device& device, vk::DescriptorSetLayout set_layout,
+                                     std::uint32_t push_constant_bytes) {
   const vk::PushConstantRange range{.stageFlags = kDrawStages, .size = push_constant_bytes};
   return {device,
-          {.pushConstantRangeCount = push_constant_bytes == 0 ? 0u : 1u, .pPushConstantRanges = &range}};
+          {.setLayoutCount = 1,
+           .pSetLayouts = &set_layout,
+           .pushConstantRangeCount = push_constant_bytes == 0 ? 0u : 1u,
+           .pPushConstantRanges = &range}};
 }
 
 struct VertexInputs {
@@ -35,12 +59,22 @@ struct VertexInputs {
 
   explicit VertexInputs(std::span<const VertexFormat> formats) {
     for (std::uint32_t i = 0; i < formats.size(); ++i) {
-      const Layout layout = layout_of(formats[i]);
-      bindings.push_back({.binding = i, .stride = layout.stride});
-      attributes.push_back({.location = i, .binding = i, .format = layout.format});
+      bindings.push_back({.binding = i, .stride = stride_of(formats[i])});
+      attributes.push_back({.location = i, .binding = i, .format = format_of(formats[i])});
     }
   }
 };
+
+vk::PipelineColorBlendAttachmentState blending(bool translucent) {
+  using Channel = vk::ColorComponentFlagBits;
+  using Factor = vk::BlendFactor;
+  return {.blendEnable = translucent,
+          .srcColorBlendFactor = Factor::eSrcAlpha,
+          .dstColorBlendFactor = Factor::eOneMinusSrcAlpha,
+          .srcAlphaBlendFactor = Factor::eOne,
+          .dstAlphaBlendFactor = Factor::eOneMinusSrcAlpha,
+          .colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA};
+}
 
 vk::raii::Pipeline make_pipeline(const Device::Native& native, const vk::raii::PipelineLayout& layout,
                                  const RasterShaders& shaders) {
@@ -60,14 +94,16 @@ vk::raii::Pipeline make_pipeline(const Device::Native& native, const vk::raii::P
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
   const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1};
-  const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples = vk::SampleCountFlagBits::e1};
+  const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples =
+                                                           sample_count(shaders.state.samples)};
   const vk::PipelineDepthStencilStateCreateInfo depth{
-      .depthTestEnable = true, .depthWriteEnable = true, .depthCompareOp = vk::CompareOp::eLess};
-  using Channel = vk::ColorComponentFlagBits;
-  const vk::PipelineColorBlendAttachmentState channels{.colorWriteMask = Channel::eR | Channel::eG |
-                                                                         Channel::eB | Channel::eA};
+      .depthTestEnable = true,
+      .depthWriteEnable = !shaders.state.translucent,
+      .depthCompareOp = shaders.state.reversed_depth ? vk::CompareOp::eGreater : vk::CompareOp::eLess};
+  const vk::PipelineColorBlendAttachmentState channels = blending(shaders.state.translucent);
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &channels};
-  const std::array dynamic_states{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+  const std::array dynamic_states{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                  vk::DynamicState::eVertexInputBindingStride};
   vk::PipelineDynamicStateCreateInfo dynamic;
   dynamic.setDynamicStates(dynamic_states);
   const vk::PipelineRenderingCreateInfo targets{.colorAttachmentCount = 1,
@@ -106,10 +142,14 @@ RasterPipeline Device::make_raster_pipeline(const std::string& name, const Raste
   pipeline.impl_ = std::make_unique<RasterPipeline::Impl>();
   RasterPipeline::Impl& impl = *pipeline.impl_;
   impl.name = name;
-  impl.input_count = static_cast<std::uint32_t>(shaders.inputs.size());
   impl.push_constant_bytes = shaders.push_constant_bytes;
+  impl.reads_texture = shaders.reads_texture;
+  impl.buffer_count = shaders.buffer_count;
+  impl.samples = shaders.state.samples;
+  for (const VertexFormat format : shaders.inputs) impl.strides.push_back(stride_of(format));
   translated("making " + what, [&] {
-    impl.layout = make_layout(native_->device, impl.push_constant_bytes);
+    impl.set_layout = make_set_layout(native_->device, shaders);
+    impl.layout = make_layout(native_->device, *impl.set_layout, impl.push_constant_bytes);
     impl.pipeline = make_pipeline(*native_, impl.layout, shaders);
   });
   native_->set_name(vk::ObjectType::ePipeline,

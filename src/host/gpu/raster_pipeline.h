@@ -12,12 +12,29 @@ namespace scene_analyzer::gpu {
 class Device;
 
 // What a vertex shader reads at location 0, 1, ...; each location has a buffer of its own, tightly packed.
-enum class VertexFormat { kFloat3 };
+enum class VertexFormat {
+  kFloat3,
+  kUint1,      // 32 bits
+  kUnorm16x2,  // two numbers of 16 bits, 0 to 65535 read as 0 to 1
+};
+
+struct RasterState {
+  std::uint32_t samples = 1;  // per pixel, as many as the target's
+  // Greater depths are nearer: with 1 / distance as depth, float32 is equally precise at all distances.
+  bool reversed_depth = false;
+  // Colours are laid over what is there by their alpha; what lies behind such triangles stays visible, be it
+  // drawn before or after them.
+  bool translucent = false;
+};
 
 struct RasterShaders {
   std::span<const std::uint32_t> vertex, fragment;  // SPIR-V, "main" in both
   std::span<const VertexFormat> inputs;
   std::uint32_t push_constant_bytes = 0;  // of the block that both stages may read
+  // What the fragment shader reads in set 0: a texture at binding 0, this many storage buffers at 1, 2, ...
+  bool reads_texture = false;
+  std::uint32_t buffer_count = 0;
+  RasterState state = {};
 };
 
 class RasterPipeline {

@@ -200,7 +200,7 @@ void Recorder::copy(const Buffer& from, std::uint64_t from_offset, const Buffer&
 }
 
 void Recorder::submit_and_wait() {
-  const bool unfinished = std::exchange(impl_->rendering, false);
+  const bool unfinished = std::exchange(impl_->rendering, nullptr) != nullptr;
   const std::uint32_t steps = std::exchange(impl_->step_count, 0);
   // Freed on every way out: by then the GPU is done with it, or lost.
   const auto freed_afterwards = std::exchange(kept_, {});

@@ -58,16 +58,19 @@ class Recorder {
 
   // --- Drawing, on devices that can (DeviceInfo::can_draw) ---
 
-  // Both images. To be called before the first rendering into a target.
-  void clear(const RenderTarget& target, const std::array<float, 4>& color);
+  // Both images; `depth` is the farthest. To be called before the first rendering into a target.
+  void clear(const RenderTarget& target, const std::array<float, 4>& color, float depth = 1);
   // Draws go there until end_rendering(), over what is there. Waits for everything recorded before.
   void begin_rendering(const RenderTarget& target);
   void end_rendering();
   struct Draw {
     std::span<const BufferRange> inputs;  // per location of the vertex shader
-    const Buffer* indices = nullptr;      // 32-bit
+    const Buffer* indices = nullptr;      // 32-bit; none: the corners are one vertex after the other
     std::uint32_t first_index = 0, index_count = 0;
-    std::uint32_t first_vertex = 0;  // added to every index
+    std::uint32_t first_vertex = 0;   // added to every index
+    std::uint32_t single_inputs = 0;  // bit i: input i has one element, which all vertices read
+    const Texture* texture = nullptr;
+    std::span<const BufferRange> buffers = {};  // of the fragment shader
   };
   template <typename Params>
   void draw(const RasterPipeline& pipeline, const Params& params, const Draw& draw) {

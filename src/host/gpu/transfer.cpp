@@ -5,7 +5,7 @@
 
 #include "gpu/error.h"
 #include "gpu/native.h"
-#include "gpu/vulkan_errors.h"
+#include "gpu/run_now.h"
 
 namespace scene_analyzer::gpu {
 namespace {
@@ -31,15 +31,11 @@ Buffer::Impl& staging(Device::Native& native) {
 
 void copy_and_wait(Device::Native& native, vk::Buffer from, vk::Buffer to, const vk::BufferCopy& region,
                    const std::string& doing) {
-  const vk::raii::CommandBuffer commands = native.make_commands();
-  translated(doing, [&] {
-    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  run_now(native, doing, [&](const vk::raii::CommandBuffer& commands) {
     record_barrier(commands);
     commands.copyBuffer(from, to, region);
     record_barrier_to_host(commands);
-    commands.end();
   });
-  native.submit_and_wait(*commands, doing);
 }
 
 }  // namespace
