@@ -2,36 +2,15 @@
 #include "import/wire.h"
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <random>
 
 #include "base/error.h"
+#include "import/memory_file.h"
 #include "import/scene_wire.h"
 
 namespace scene_analyzer::import {
 namespace {
-
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(memfd_create("test", 0)) {
-    if (descriptor_ < 0) throw std::runtime_error("memfd_create");
-  }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  int descriptor() const { return descriptor_; }
-  std::vector<std::byte> contents() const {
-    std::vector<std::byte> bytes(static_cast<std::size_t>(lseek(descriptor_, 0, SEEK_END)));
-    if (pread(descriptor_, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-      throw std::runtime_error("pread");
-    return bytes;
-  }
-
- private:
-  int descriptor_;
-};
 
 template <typename T>
 void write_array(wire::Writer& writer, const std::vector<T>& values) {
@@ -40,8 +19,13 @@ void write_array(wire::Writer& writer, const std::vector<T>& values) {
   writer.end_array(sizeof(T));
 }
 
-// One triangle, one material with colour, one instance; `last_index` is its last corner.
-std::vector<std::byte> small_scene(std::uint32_t last_index = 2) {
+struct TextureRecord {
+  std::uint32_t width = 2, height = 1;
+  std::vector<std::uint8_t> pixels = {1, 2, 3, 4, 5, 6, 7, 8};
+};
+
+// One triangle, one texture, one material with colour, one instance; `last_index` is its last corner.
+std::vector<std::byte> small_scene(std::uint32_t last_index = 2, const TextureRecord& texture = {}) {
   const MemoryFile memory;
   wire::Writer writer(memory.descriptor());
   writer.string("Test");
@@ -53,14 +37,19 @@ std::vector<std::byte> small_scene(std::uint32_t last_index = 2) {
   writer.string("a\x1b.obj");
   writer.number(std::uint8_t{1});
   writer.number(std::uint64_t{1});
-  writer.string("careful");
-  writer.number(std::uint64_t{0});
+  writer.string("wood.png");
+  write_array<std::uint8_t>(writer, {0x89, 'P'});
+  writer.number(texture.width);
+  writer.number(texture.height);
+  write_array<std::uint8_t>(writer, texture.pixels);
   writer.number(std::uint64_t{1});
   writer.string("red");
   writer.number(std::uint8_t{1});
   for (const float channel : {1.0f, 0.0f, 0.0f, 1.0f}) writer.number(channel);
   writer.number(std::uint8_t{0});
   writer.number(std::uint32_t{0});
+  writer.number(std::uint64_t{1});
+  writer.string("careful");
   writer.number(std::uint64_t{1});
   writer.string("triangle");
   write_array<float>(writer, {0, 0, 0, 1, 0, 0, 0, 1, 0});
@@ -90,6 +79,11 @@ TEST(Wire, RoundTrip) {
   EXPECT_EQ(scene.up_axis, "+Z");
   EXPECT_EQ(scene.files.at(0).path, "a.obj");
   EXPECT_EQ(scene.warnings.at(0), "careful");
+  EXPECT_EQ(scene.textures.at(0).path, "wood.png");
+  EXPECT_EQ(scene.textures.at(0).encoded.size(), 2u);
+  EXPECT_EQ(scene.textures.at(0).width, 2u);
+  EXPECT_EQ(scene.textures.at(0).height, 1u);
+  EXPECT_EQ(scene.textures.at(0).pixels[7], 8u);
   EXPECT_EQ(scene.meshes.at(0).name, "triangle");
   EXPECT_EQ(scene.meshes.at(0).positions[7], 1.0f);
   EXPECT_EQ(scene.meshes.at(0).indices[2], 2u);
@@ -117,6 +111,21 @@ TEST(Wire, AnIndexBeyondTheVerticesNamesMeshAndTriangle) {
   }
 }
 
+TEST(Wire, ATextureIsNeitherLargerNorOfAnotherSizeThanItsPixels) {
+  using Pixels = std::vector<std::uint8_t>;
+  const auto read_texture = [](const TextureRecord& texture) { read(small_scene(2, texture)); };
+  EXPECT_NO_THROW(read_texture({0, 0, {}}));
+  EXPECT_NO_THROW(read_texture({1024, 1024, Pixels(4 << 20)}));
+  EXPECT_THROW(read_texture({1025, 1, Pixels(4 * 1025)}), wire::Malformed);
+  EXPECT_THROW(read_texture({1, 1025, Pixels(4 * 1025)}), wire::Malformed);
+  EXPECT_THROW(read_texture({2, 1, Pixels(7)}), wire::Malformed);
+  EXPECT_THROW(read_texture({2, 1, Pixels(9)}), wire::Malformed);
+  EXPECT_THROW(read_texture({2, 1, {}}), wire::Malformed);
+  EXPECT_THROW(read_texture({0, 0, Pixels(4)}), wire::Malformed);
+  EXPECT_THROW(read_texture({5, 0, {}}), wire::Malformed);
+  EXPECT_THROW(read_texture({0x80000000, 0x80000000, {}}), wire::Malformed) << "4 * 2^62 is 0 in 64 bits";
+}
+
 TEST(Wire, EveryTruncationIsRefused) {
   const std::vector<std::byte> memory = small_scene();
   for (std::size_t size = 0; size < memory.size(); ++size)
@@ -136,8 +145,11 @@ std::uint64_t touch(const mesh::Scene& scene) {
     for (const std::uint32_t index : mesh.indices) sum += mesh.positions[3 * std::size_t{index}] > 0;
     for (const float value : mesh.texture_coordinates) sum += value > 0;
   }
-  for (const mesh::Texture& texture : scene.textures)
+  for (const mesh::Texture& texture : scene.textures) {
     for (const std::uint8_t byte : texture.encoded) sum += byte;
+    for (std::size_t i = 0; i < std::size_t{4} * texture.width * texture.height; ++i)
+      sum += texture.pixels[i];
+  }
   for (const mesh::Instance& instance : scene.instances)
     sum += scene.meshes.at(instance.mesh).triangle_count();
   return sum;

@@ -108,9 +108,12 @@ class Collector {
         numbers_.try_emplace(path.C_Str(), static_cast<std::uint32_t>(result_.textures.size()));
     if (!is_new) return entry->second;
     mesh::Texture& added = result_.textures.emplace_back();
+    std::string& file = result_.texture_files.emplace_back();
     const aiTexture* embedded = scene_.GetEmbeddedTexture(path.C_Str());
     if (embedded == nullptr) {
       added.path = path.C_Str();
+      const AssetFiles::Found found = files_.find(path.C_Str());
+      if (AssetFiles::readable(found.path)) file = found.path;
     } else if (embedded->mHeight == 0) {
       added.path = embedded->mFilename.C_Str();
       added.encoded = {reinterpret_cast<const std::uint8_t*>(embedded->pcData), embedded->mWidth};
@@ -147,16 +150,9 @@ Appearance collect_appearance(const aiScene& scene, AssetFiles& files, std::vect
   return collector.take();
 }
 
-void write_appearance(const Appearance& appearance, wire::Writer& writer) {
-  writer.number(std::uint64_t{appearance.textures.size()});
-  for (const mesh::Texture& texture : appearance.textures) {
-    writer.string(texture.path);
-    writer.begin_array();
-    writer.append(texture.encoded);
-    writer.end_array(1);
-  }
-  writer.number(std::uint64_t{appearance.materials.size()});
-  for (const mesh::Material& material : appearance.materials) {
+void write_materials(std::span<const mesh::Material> materials, wire::Writer& writer) {
+  writer.number(std::uint64_t{materials.size()});
+  for (const mesh::Material& material : materials) {
     writer.string(material.name);
     writer.number(std::uint8_t{material.base_color.has_value()});
     for (const float channel : material.base_color.value_or(std::array<float, 4>{})) writer.number(channel);

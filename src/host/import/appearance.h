@@ -25,8 +25,9 @@ struct Conventions {
 Conventions conventions_of(const aiScene& scene, const std::string& format);
 
 struct Appearance {
-  std::vector<mesh::Material> materials;             // one per material of the scene
-  std::vector<mesh::Texture> textures;               // base colour textures, each once
+  std::vector<mesh::Material> materials;   // one per material of the scene
+  std::vector<mesh::Texture> textures;     // base colour textures, each once
+  std::vector<std::string> texture_files;  // per texture: what to open; empty: embedded, or not there
   std::vector<std::vector<std::uint8_t>> converted;  // keeps the bytes of textures that Assimp had decoded
 };
 
@@ -34,6 +35,7 @@ struct Appearance {
 // material is looked up through `files`, so that the content key covers it; missing ones become one warning.
 Appearance collect_appearance(const aiScene& scene, AssetFiles& files, std::vector<std::string>& warnings);
 
-void write_appearance(const Appearance& appearance, wire::Writer& writer);
+// The "materials" of scene_wire.h.
+void write_materials(std::span<const mesh::Material> materials, wire::Writer& writer);
 
 }  // namespace scene_analyzer::import

@@ -72,8 +72,8 @@ Limits derive(Limits limits, const fs::path& asset, std::uint64_t asset_bytes) {
   return limits;
 }
 
-mesh::Scene import_readable(const fs::path& asset, const Limits& limits) {
-  const Answer answer = run_worker(asset, limits);
+mesh::Scene import_once(const fs::path& asset, const Limits& limits, Textures textures) {
+  const Answer answer = run_worker(asset, limits, textures);
   wire::Reader reader(answer.memory);
   if (reader.status() != wire::Status::kScene) throw InputError(clean_text(reader.string(), 2048));
   mesh::Scene scene = read_scene(reader);
@@ -82,14 +82,26 @@ mesh::Scene import_readable(const fs::path& asset, const Limits& limits) {
   return scene;
 }
 
+// Decoders of images are as easily crashed as importers; the geometry must not be lost with the textures.
+mesh::Scene import_readable(const fs::path& asset, const Limits& limits, Textures textures) {
+  try {
+    return import_once(asset, limits, textures);
+  } catch (const WorkerFailure& error) {
+    if (textures == Textures::kLeave) throw;
+    mesh::Scene scene = import_once(asset, limits, Textures::kLeave);
+    scene.warnings.push_back(std::string("no texture was decoded, as with textures ") + error.what());
+    return scene;
+  }
+}
+
 }  // namespace
 
-mesh::Scene import_asset(const fs::path& asset, const Limits& limits) {
+mesh::Scene import_asset(const fs::path& asset, const Limits& limits, Textures textures) {
   const std::string name = clean_text(asset.string(), 4096);
   try {
     const std::uint64_t bytes = check_is_readable_file(asset);
     check_extension(asset);
-    return import_readable(asset, derive(limits, asset, bytes));
+    return import_readable(asset, derive(limits, asset, bytes), textures);
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
   } catch (const WorkerFailure& error) {

@@ -20,11 +20,25 @@ struct Limits {
   double seconds = 120;            // wall clock and CPU
 };
 
+// What becomes of base colour textures.
+enum class Textures : std::uint8_t {
+  kLeave,   // Texture::pixels stays empty
+  kDecode,  // PNG, JPEG, BMP, TGA, GIF (its first picture) and PSD become pixels
+};
+
 // Reads `asset`. Throws InputError naming the file and the reason: missing, a folder, empty, unsupported
 // format, Assimp's own message, a missing .bin, a required glTF extension that is not on the tested list, a
 // crash (signal name) or an exceeded limit. An asset without any triangle is returned, not refused. Cost:
 // linear in the file; the Scene's arrays live in the shared memory that the worker filled, no copy is made.
-mesh::Scene import_asset(const std::filesystem::path& asset, const Limits& limits = {});
+//
+// Textures::kDecode: embedded textures, and files in the asset's folder, each once, one after the other,
+// within the same limits; pictures of more than 16384 pixels a side or 64 Mi pixels are not tried. What
+// cannot be decoded is one warning, never an exception: when the worker crashes or exceeds a limit, it is
+// started once more, without textures. Cost: some 25 ms per million pixels of a file, twice that with 16 bits
+// per channel; at most 4 MiB of shared memory per texture and 2 GiB in all; and while a picture is decoded,
+// up to 20 bytes per pixel of the worker's memory.
+mesh::Scene import_asset(const std::filesystem::path& asset, const Limits& limits = {},
+                         Textures textures = Textures::kLeave);
 
 // The worker's main: called by main() when the first argument is kWorkerArgument. Returns the exit code.
 int worker_main(int argc, char** argv);

@@ -26,12 +26,23 @@ void read_files(wire::Reader& reader, mesh::Scene& scene) {
   }
 }
 
-void read_appearance(wire::Reader& reader, mesh::Scene& scene) {
-  scene.textures.resize(reader.count(24));
+void read_textures(wire::Reader& reader, mesh::Scene& scene) {
+  scene.textures.resize(reader.count(48));
   for (mesh::Texture& texture : scene.textures) {
     texture.path = name(reader);
     texture.encoded = reader.array<std::uint8_t>();
+    texture.width = reader.number<std::uint32_t>();
+    texture.height = reader.number<std::uint32_t>();
+    texture.pixels = reader.array<std::uint8_t>();
+    require(texture.width <= mesh::kLongestTextureSide && texture.height <= mesh::kLongestTextureSide,
+            "a texture is larger than agreed");
+    require((texture.width == 0) == (texture.height == 0), "a texture has no pixels in one direction");
+    require(texture.pixels.size() == std::size_t{4} * texture.width * texture.height,
+            "a texture has pixels for another size");
   }
+}
+
+void read_materials(wire::Reader& reader, mesh::Scene& scene) {
   scene.materials.resize(reader.count(30));
   for (mesh::Material& material : scene.materials) {
     material.name = name(reader);
@@ -101,9 +112,10 @@ mesh::Scene read_scene(wire::Reader& reader) {
   std::string up = name(reader);
   if (has_up) scene.up_axis = std::move(up);
   read_files(reader, scene);
+  read_textures(reader, scene);
+  read_materials(reader, scene);
   scene.warnings.resize(reader.count(8));
   for (std::string& warning : scene.warnings) warning = clean_text(reader.string(), 2048);
-  read_appearance(reader, scene);
   read_meshes(reader, scene);
   read_instances(reader, scene);
   return scene;

@@ -10,6 +10,7 @@
 
 #include "import/appearance.h"
 #include "import/node_walk.h"
+#include "import/texture_writer.h"
 #include "import/warnings.h"
 #include "mesh/scene.h"
 
@@ -153,7 +154,7 @@ std::uint64_t count_triangles(const aiScene& scene) {
 }
 
 void write_scene(aiScene& scene, std::size_t file_materials, AssetFiles& files,
-                 std::vector<std::string> warnings, wire::Writer& writer) {
+                 std::vector<std::string> warnings, Textures textures, wire::Writer& writer) {
   const std::string format = format_name(scene);
   const Conventions conventions = conventions_of(scene, format);
   Appearance appearance = collect_appearance(scene, files, warnings);
@@ -169,8 +170,9 @@ void write_scene(aiScene& scene, std::size_t file_materials, AssetFiles& files,
   writer.number(std::uint8_t{conventions.up_axis.has_value()});
   writer.string(conventions.up_axis.value_or(""));
   write_files(files, writer);
-  write_strings(warnings, writer);
-  write_appearance(appearance, writer);
+  write_textures(appearance, textures, warnings, writer);
+  write_materials(appearance.materials, writer);
+  write_strings(warnings, writer);  // behind the textures: they are decoded as they are written
   write_meshes(scene, writer);
   write_instances(instances, writer);
   writer.finish(wire::Status::kScene);

@@ -8,10 +8,24 @@
 namespace scene_analyzer::import {
 namespace {
 
-constexpr std::size_t kLongestList = 8;
+constexpr std::size_t kLongestList = 8;      // names
+constexpr std::size_t kLongestListed = 200;  // bytes of a name in a list
 
 std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "es");
+}
+
+// "a, b and 3 more".
+std::string cut_list(const std::vector<std::string>& items) {
+  std::string list;
+  for (std::size_t i = 0; i < std::min(items.size(), kLongestList); ++i)
+    list += (i == 0 ? "" : ", ") + items[i];
+  if (items.size() > kLongestList) list += " and " + std::to_string(items.size() - kLongestList) + " more";
+  return list;
+}
+
+std::string quoted(const std::string& name) {
+  return "\"" + name.substr(0, kLongestListed) + "\"";
 }
 
 }  // namespace
@@ -24,11 +38,25 @@ void warn_about_list(const std::vector<std::string>& names, const std::string& n
     warnings.push_back(noun + " \"" + names.front() + "\" " + singular);
     return;
   }
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kLongestList); ++i)
-    list += (i == 0 ? "\"" : ", \"") + names[i].substr(0, 200) + "\"";
-  if (names.size() > kLongestList) list += " and " + std::to_string(names.size() - kLongestList) + " more";
-  warnings.push_back(std::to_string(names.size()) + " " + noun + "s " + plural + ": " + list);
+  std::vector<std::string> items;
+  for (const std::string& name : names) items.push_back(quoted(name));
+  warnings.push_back(std::to_string(names.size()) + " " + noun + "s " + plural + ": " + cut_list(items));
+}
+
+void warn_about_textures(const std::vector<UndecodedTexture>& textures, std::vector<std::string>& warnings) {
+  if (textures.empty()) return;
+  const auto name = [](const UndecodedTexture& texture) {
+    return texture.name.empty() ? "without a name" : quoted(texture.name);
+  };
+  if (textures.size() == 1) {
+    warnings.push_back("texture " + name(textures.front()) +
+                       " cannot be decoded: " + textures.front().reason);
+    return;
+  }
+  std::vector<std::string> items;
+  for (const UndecodedTexture& texture : textures)
+    items.push_back(name(texture) + " (" + texture.reason + ")");
+  warnings.push_back(std::to_string(textures.size()) + " textures cannot be decoded: " + cut_list(items));
 }
 
 void warn_about_meshes(const aiScene& scene, std::span<const NodeMesh> instances,

@@ -18,6 +18,14 @@ void warn_about_list(const std::vector<std::string>& names, const std::string& n
                      const std::string& singular, const std::string& plural,
                      std::vector<std::string>& warnings);
 
+struct UndecodedTexture {
+  std::string name;  // as the file names it; empty for an unnamed embedded one
+  std::string reason;
+};
+
+// One sentence for all of them, each with its reason, cut like the list above.
+void warn_about_textures(const std::vector<UndecodedTexture>& textures, std::vector<std::string>& warnings);
+
 // Meshes that no node shows, and points and lines, which are not measured.
 void warn_about_meshes(const aiScene& scene, std::span<const NodeMesh> instances,
                        std::vector<std::string>& warnings);

@@ -21,7 +21,7 @@
 namespace scene_analyzer::import::wire {
 
 inline constexpr std::array<char, 8> kMagic = {'S', 'C', 'N', 'I', 'M', 'P', 'R', 'T'};
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr std::uint64_t kArrayAlignment = 64;
 
 enum class Status : std::uint32_t {

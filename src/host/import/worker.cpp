@@ -56,7 +56,7 @@ void throw_if_out_of_memory(const Assimp::Importer& importer) {
   }
 }
 
-void import_into(AssetFiles& files, wire::Writer& writer) {
+void import_into(AssetFiles& files, Textures textures, wire::Writer& writer) {
   std::vector<std::string> warnings;
   check_file(files.asset_name(), warnings);
   const ExpectedGltf expected = check_gltf(files, warnings);
@@ -69,7 +69,7 @@ void import_into(AssetFiles& files, wire::Writer& writer) {
   aiScene* const scene = importer.GetOrphanedScene();  // freed by the end of the process
   require_expected(expected, *scene);
   require_content(files.asset_name(), scene->mNumMeshes);
-  write_scene(*scene, expected.materials, files, std::move(warnings), writer);
+  write_scene(*scene, expected.materials, files, std::move(warnings), textures, writer);
 }
 
 void refuse(const std::string& reason) {
@@ -89,13 +89,14 @@ void refuse_system_error(const std::system_error& error) {
 
 struct Job {
   std::filesystem::path asset;
+  Textures textures = Textures::kLeave;
 };
 
 void run(const Job& job) {
   try {
     AssetFiles files(job.asset.filename().string());
     wire::Writer writer(kAnswerDescriptor);
-    import_into(files, writer);
+    import_into(files, job.textures, writer);
   } catch (const std::bad_alloc&) {
     wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
   } catch (const std::system_error& error) {
@@ -137,9 +138,9 @@ std::uint64_t number(const char* text) {
 }  // namespace
 
 int worker_main(int argc, char** argv) {
-  if (argc != 6) return 2;  // started by hand: it has no one to answer to
+  if (argc != 7) return 2;  // started by hand: it has no one to answer to
   try {
-    Job job{argv[2]};
+    Job job{argv[2], number(argv[6]) != 0 ? Textures::kDecode : Textures::kLeave};
     // The stack is room that most files never touch: it comes on top of what the import may take.
     limit_this_process(number(argv[3]) + kStackBytes, number(argv[4]), static_cast<pid_t>(number(argv[5])));
     if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());

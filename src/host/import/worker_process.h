@@ -27,6 +27,6 @@ struct Answer {
 
 // `limits` are already derived: memory_bytes > 0. Throws WorkerFailure, and std::system_error when the
 // machine cannot start a process.
-Answer run_worker(const std::filesystem::path& asset, const Limits& limits);
+Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Textures textures);
 
 }  // namespace scene_analyzer::import

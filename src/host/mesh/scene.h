@@ -28,11 +28,14 @@ inline constexpr Matrix3 kIdentity3 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 struct TriangleMesh {
   std::string name;
-  std::span<const float> positions;            // x, y, z per vertex, as in the file (local coordinates)
-  std::span<const std::uint32_t> indices;      // three per triangle, each < vertex_count()
-  std::span<const float> texture_coordinates;  // u, v per vertex; empty when the file has none
-  std::uint32_t material = 0;                  // index into Scene::materials
-  std::uint64_t skipped_primitives = 0;        // points and lines, which are not counted
+  std::span<const float> positions;        // x, y, z per vertex, as in the file (local coordinates)
+  std::span<const std::uint32_t> indices;  // three per triangle, each < vertex_count()
+  // u, v per vertex; empty when the file has none. (0, 0) is the lower left corner of the picture and (1, 1)
+  // the upper right one, whatever the format: in rows from the top, v lies (1 - v) * height pixels down.
+  // Values beyond 0 and 1 are in many files.
+  std::span<const float> texture_coordinates;
+  std::uint32_t material = 0;            // index into Scene::materials
+  std::uint64_t skipped_primitives = 0;  // points and lines, which are not counted
 
   std::uint64_t vertex_count() const { return positions.size() / 3; }
   std::uint64_t triangle_count() const { return indices.size() / 3; }
@@ -51,9 +54,17 @@ struct Material {
   std::optional<std::uint32_t> texture;  // index into Scene::textures
 };
 
+inline constexpr std::uint32_t kLongestTextureSide = 1024;  // pixels, of a decoded texture
+
 struct Texture {
   std::string path;                       // as the file names it; empty for an unnamed embedded one
   std::span<const std::uint8_t> encoded;  // embedded file bytes (PNG, JPEG, ...), empty when external
+  // Decoded, where that was asked for and possible: R, G, B, A per pixel, rows from the top, values as the
+  // file stores them (mostly sRGB, not linear; alpha not multiplied in). Larger pictures were halved until no
+  // side is longer than kLongestTextureSide, so these are not always the size of the file's picture. 0 x 0
+  // otherwise.
+  std::uint32_t width = 0, height = 0;
+  std::span<const std::uint8_t> pixels;  // 4 * width * height
 };
 
 // A file that the asset is made of, the asset itself first.
