@@ -27,6 +27,10 @@ inline constexpr std::array<std::string_view, kMetricCount> kMetricKeys = {
 // Column heads of narrow tables, the thesis' symbols.
 inline constexpr std::array<std::string_view, kMetricCount> kMetricSymbols = {
     "R_pppg", "R_pgv", "R_rd", "R_d", "R_ccm", "R_ft", "R_rt"};
+// For people.
+inline constexpr std::array<std::string_view, kMetricCount> kMetricNames = {
+    "Polygons per planar group", "Planar group variation", "Relative density", "Distance",
+    "Co-occurrence contrast",    "Fourier transform",      "Rendering time"};
 
 using MetricSet = std::bitset<kMetricCount>;
 

@@ -15,6 +15,7 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
+#include "cli/picture_files.h"
 #include "cli/terminal.h"
 #include "report/report.h"
 
@@ -78,6 +79,13 @@ bool write_outputs(const AnalyzeRequest& request, const report::SceneReport& rep
   return good;
 }
 
+// What the validation layer says, where it is on.
+bool device_was_used_well(LazyDevice& device) {
+  const auto validation = device.take_validation_messages();
+  for (const std::string& message : validation) log_error(message);
+  return validation.empty();
+}
+
 void warn_if_timings_are_mixed(const report::SceneReport& report) {
   if (!report.rating.mixed_timings || !report.options.metrics[index_of(analysis::Metric::kRenderingTime)])
     return;
@@ -101,12 +109,12 @@ int analyze_command(std::span<const std::string> arguments) {
   warn_if_mixed(analyses.assets, &analysis::AssetAnalysis::unit_scale, "their unit in metres");
   warn_if_mixed(analyses.assets, &analysis::AssetAnalysis::up_axis, "their up axis");
   // Wrong use of the device makes every figure doubtful: nothing is written.
-  const auto validation = device.take_validation_messages();
-  for (const std::string& message : validation) log_error(message);
-  if (!validation.empty()) return kUnusable;
+  if (!device_was_used_well(device)) return kUnusable;
   const report::SceneReport report = make_report(request, analyses.assets);
   warn_if_timings_are_mixed(report);
-  const bool written = write_outputs(request, report);
+  bool written = write_outputs(request, report);
+  written = write_pictures(request, report, device) && written;
+  if (!device_was_used_well(device)) return kUnusable;
   return written && analyses.all_good ? kSuccess : kInputFailed;
 }
 

@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  scene-analyzer analyze room.glb\n"
     "  scene-analyzer analyze room.glb lamp.obj --json scene.json --csv scene.csv\n"
     "  scene-analyzer analyze room.glb --eye -1,2,3 --weights distance=1,relative_density=2\n"
+    "  scene-analyzer analyze room.glb --image room.png --metric relative_density --emphasis extremes\n"
     "  scene-analyzer analyze scan.stl --alpha 2.5 --weld-tolerance 1e-4 --metrics "
     "polygons_per_planar_group\n"
     "  scene-analyzer analyze --quiet --json - -- -odd-name.obj | jq '.meshes[].aggregate'\n";
@@ -79,6 +80,7 @@ cxxopts::Options make_options() {
                      "(-signal.csv, -spectrum.csv) and both as a picture (-signal.svg), into DIR; computes "
                      "like --histograms",
                      text(), "DIR");
+  add_picture_options(options);
   options.add_options("Running")(
       "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
       text(), "D")("cache-dir", "keep analysis files below DIR, default beside each asset", text(), "DIR")(
@@ -142,6 +144,14 @@ void check_output(const std::string& option, const fs::path& path, const std::ve
           fmt::format("--{}: '{}' is one of the assets and would be overwritten", option, path.string()));
 }
 
+void check_different(const std::vector<std::pair<std::string, std::optional<fs::path>>>& outputs) {
+  for (auto a = outputs.begin(); a != outputs.end(); ++a)
+    for (auto b = a + 1; b != outputs.end(); ++b)
+      if (a->second && b->second && a->second->lexically_normal() == b->second->lexically_normal())
+        throw UsageError(
+            fmt::format("--{} and --{} name the same file '{}'", a->first, b->first, a->second->string()));
+}
+
 std::optional<fs::path> read_folder(const CommandLine& line, const std::string& option) {
   const auto folder = line.value(option);
   if (!folder) return std::nullopt;
@@ -159,8 +169,8 @@ void read_output(const CommandLine& line, AnalyzeRequest& request) {
     throw UsageError("--json - and --csv - both ask for standard output; one of them needs a file name");
   if (request.json) check_output("json", *request.json, request.assets);
   if (request.csv) check_output("csv", *request.csv, request.assets);
-  if (request.json && request.csv && request.json->lexically_normal() == request.csv->lexically_normal())
-    throw UsageError(fmt::format("--json and --csv name the same file '{}'", request.json->string()));
+  if (request.pictures.image) check_output("image", *request.pictures.image, request.assets);
+  check_different({{"json", request.json}, {"csv", request.csv}, {"image", request.pictures.image}});
 }
 
 void read_running(const CommandLine& line, AnalyzeRequest& request) {
@@ -195,6 +205,8 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
   for (const std::string& asset : request.assets)
     if (asset.empty())
       throw UsageError("an asset's name is empty; is a variable of the calling script unset?");
+  request.pictures = read_pictures(line, request.pipeline.metrics, request.ratings.relative);
+  request.pictures.image_set = read_folder(line, "image-set");
   read_output(line, request);
   request.histograms = read_folder(line, "histograms");
   request.signals = read_folder(line, "signals");
@@ -202,9 +214,10 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
 }
 
 std::string analyze_help() {
-  return fmt::format("{}\n{}\n{}\n{}",
-                     make_options().help({"Measuring", "Rating", "Output", "Running", "Messages"}),
-                     metric_help(), kExamples, kExitCodeHelp);
+  return fmt::format(
+      "{}\n{}\n{}\n{}",
+      make_options().help({"Measuring", "Rating", "Output", "Pictures", "Running", "Messages"}),
+      metric_help(), kExamples, kExitCodeHelp);
 }
 
 }  // namespace scene_analyzer::cli

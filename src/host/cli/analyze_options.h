@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/logging.h"
+#include "cli/picture_options.h"
 #include "pipeline/pipeline.h"
 #include "ratings/ratings.h"
 
@@ -21,7 +22,8 @@ struct AnalyzeRequest {
   ratings::Options ratings;
   std::optional<std::filesystem::path> json, csv;            // "-": standard output, at most one of the two
   std::optional<std::filesystem::path> histograms, signals;  // folders, created when missing
-  std::string device;                                        // selector, "" = the preferred one
+  PictureRequest pictures;
+  std::string device;  // selector, "" = the preferred one
   LogLevel log = LogLevel::kNormal;
 
   bool table() const { return json != "-" && csv != "-"; }

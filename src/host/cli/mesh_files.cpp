@@ -34,12 +34,16 @@ std::string mesh_stem(std::size_t row, const std::string& name) {
   return stem;
 }
 
-MeshFiles::MeshFiles(std::filesystem::path folder, const char* option) : folder_(std::move(folder)) {
+void make_folder(const char* option, const std::filesystem::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder_, error);
+  std::filesystem::create_directories(folder, error);
   if (error)
-    throw UsageError(fmt::format("--{}: the folder '{}' cannot be created: {}", option, folder_.string(),
-                                 error.message()));
+    throw UsageError(
+        fmt::format("--{}: the folder '{}' cannot be created: {}", option, folder.string(), error.message()));
+}
+
+MeshFiles::MeshFiles(std::filesystem::path folder, const char* option) : folder_(std::move(folder)) {
+  make_folder(option, folder_);
 }
 
 void MeshFiles::start_asset(std::size_t rows_before) {

@@ -18,6 +18,9 @@ namespace scene_analyzer::cli {
 // shortened to 60 characters: a file name on every system, and another one for every row.
 std::string mesh_stem(std::size_t row, const std::string& name);
 
+// Creates the folder that `option` names, where it is missing. Throws UsageError.
+void make_folder(const char* option, const std::filesystem::path& folder);
+
 // A folder, and where in it the files of a geometry belong: under the first row of the report that shows it.
 class MeshFiles {
  public:

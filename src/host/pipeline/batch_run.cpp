@@ -173,6 +173,23 @@ void BatchRun::find_planar_groups() {
   recorder.submit_and_wait();
   const auto totals = geometry_.chunks.results(stages_.device, groups.totals);
   for (std::size_t mesh = 0; mesh < totals.size(); ++mesh) fill_planar(target(mesh), totals[mesh], metrics_);
+  if (group_sizes_) list_group_sizes(groups);
+}
+
+void BatchRun::list_group_sizes(const planar_groups::PlanarGroups& groups) {
+  for (std::size_t mesh = 0; mesh < totals_.size(); ++mesh) {
+    if (totals_[mesh].kept == 0) continue;
+    const auto& record = geometry_.records[mesh];
+    const auto of_mesh = [&](const auto& array) {
+      return array.download(stages_.device, record.first_triangle, record.triangle_count);
+    };
+    const std::vector<std::uint32_t> labels = of_mesh(groups.labels), sizes_at_lowest = of_mesh(groups.sizes);
+    const std::vector<double> areas = of_mesh(geometry_.areas);
+    std::vector<std::uint32_t> sizes(labels.size());
+    for (std::size_t triangle = 0; triangle < sizes.size(); ++triangle)
+      if (areas[triangle] > 0) sizes[triangle] = sizes_at_lowest[labels[triangle] - record.first_triangle];
+    group_sizes_(plan_.geometries[mesh], std::move(sizes));
+  }
 }
 
 void BatchRun::bound_instances() {

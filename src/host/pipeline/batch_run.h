@@ -25,6 +25,7 @@ class BatchRun {
         histograms_(measurement.histograms),
         signals_(measurement.signals),
         degenerate_(measurement.degenerate),
+        group_sizes_(measurement.group_sizes),
         step_(std::move(step)) {}
 
   // All stages that run on the device but the spectra, after which the batch holds none of its memory. Start
@@ -46,6 +47,7 @@ class BatchRun {
   void list_degenerate();
   void search_signals();
   void find_planar_groups();
+  void list_group_sizes(const planar_groups::PlanarGroups& groups);
   void bound_instances();
   void compare_areas();
   void sum_contrast(const cooccurrence::AreaClasses& classes);
@@ -62,6 +64,7 @@ class BatchRun {
   const HistogramSink& histograms_;
   const SignalSink& signals_;
   const DegenerateSink& degenerate_;
+  const GroupSizeSink& group_sizes_;
   const Step step_;
   geometry::Geometry geometry_;
   adjacency::Adjacency adjacency_;

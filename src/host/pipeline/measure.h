@@ -38,6 +38,10 @@ using SignalSink = std::function<void(std::uint32_t geometry, const analysis::Si
 // Takes the degenerate triangles of one geometry that has some: indices in its mesh, ascending.
 using DegenerateSink = std::function<void(std::uint32_t geometry, std::vector<std::uint32_t> triangles)>;
 
+// Takes for every triangle of one geometry the number of triangles in its planar group, 0 for degenerate
+// ones. Asked for with a metric of planar groups. May be called again, as above.
+using GroupSizeSink = std::function<void(std::uint32_t geometry, std::vector<std::uint32_t> sizes)>;
+
 // What a measurement reads, and where its results go.
 struct Measurement {
   const mesh::Scene& scene;           // must outlive the measurement,
@@ -48,6 +52,7 @@ struct Measurement {
   HistogramSink histograms = {};  // without one there are none
   SignalSink signals = {};
   DegenerateSink degenerate = {};
+  GroupSizeSink group_sizes = {};
 };
 
 class Measurer {

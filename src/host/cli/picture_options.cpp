@@ -1,0 +1,115 @@
+#include "cli/picture_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/option_parsing.h"
+
+namespace scene_analyzer::cli {
+namespace {
+
+using pictures::Subject;
+
+constexpr std::uint32_t kLeastSide = 64;  // below it no legend can be read
+constexpr std::array<std::string_view, 4> kMapNames = {"thesis", "viridis", "cividis", "coolwarm"};
+
+[[noreturn]] void refuse_name(const std::string& option, const std::string& text,
+                              const std::vector<std::string>& known) {
+  const std::string meant = nearest(text, known);
+  throw UsageError(fmt::format("--{}: '{}' is none of {}{}", option, text, fmt::join(known, ", "),
+                               meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+}
+
+void read_subject(const std::string& text, analysis::MetricSet metrics, pictures::Content& content) {
+  std::vector<std::string> known = {"aggregate", "planar_groups"};
+  known.insert(known.end(), analysis::kMetricKeys.begin(), analysis::kMetricKeys.end());
+  if (text == "aggregate") {
+    content.subject = Subject::kAggregate;
+  } else if (text == "planar_groups") {
+    content.subject = Subject::kPlanarGroups;
+  } else if (const auto metric = analysis::metric_of(text)) {
+    content.subject = Subject::kMetric;
+    content.metric = *metric;
+    if (!metrics[index_of(*metric)])
+      throw UsageError(fmt::format("--metric: {} is not among the metrics that --metrics asks for", text));
+  } else {
+    refuse_name("metric", text, known);
+  }
+}
+
+ratings::ColorMap read_map(const std::string& text) {
+  const auto* found = std::ranges::find(kMapNames, text);
+  if (found == kMapNames.end()) refuse_name("colormap", text, {kMapNames.begin(), kMapNames.end()});
+  return static_cast<ratings::ColorMap>(found - kMapNames.begin());
+}
+
+void read_content(const CommandLine& line, analysis::MetricSet metrics, pictures::Content& content) {
+  if (const auto subject = line.value("metric")) read_subject(*subject, metrics, content);
+  if (const auto map = line.value("colormap")) content.map = read_map(*map);
+  const auto emphasis = line.value("emphasis");
+  if (!emphasis) return;
+  if (*emphasis != "extremes") refuse_name("emphasis", *emphasis, {"extremes"});
+  content.emphasize_extremes = true;
+  if (content.subject == Subject::kPlanarGroups)
+    throw UsageError("--emphasis: planar groups have no extreme meshes; choose another --metric");
+}
+
+}  // namespace
+
+void add_picture_options(cxxopts::Options& options) {
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add_options("Pictures")(
+      "image", "draw the scene, every mesh in the colour of its rating, and write it to FILE", text(),
+      "FILE.png")(
+      "image-set",
+      "draw every metric, absolute and relative, the aggregate, the planar groups and the scene's "
+      "own colours, and write them into DIR",
+      text(), "DIR")("metric",
+                     "what the picture of --image shows: a metric, aggregate (default), or "
+                     "planar_groups: triangles by the size of their group",
+                     text(), "KEY")(
+      "colormap",
+      "thesis (default: green, yellow, red), viridis or cividis (readable with a colour vision deficiency), "
+      "coolwarm",
+      text(), "NAME")("size", "size of pictures, legend included, default 1280x720", text(), "WxH")(
+      "target",
+      "where pictures look at, world units, with a field of view of 45 degrees; default the middle of the "
+      "scene, all of it in view",
+      text(), "X,Y,Z")("emphasis",
+                       "extremes: meshes below the upper quarter of the scene's range become transparent, so "
+                       "that small and hidden ones are found",
+                       text(), "extremes");
+}
+
+PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metrics, bool relative) {
+  PictureRequest request;
+  request.image = line.value("image");
+  request.image_set = line.value("image-set");
+  if (!request.wanted())
+    for (const char* option : {"metric", "colormap", "size", "target", "emphasis"})
+      if (line.value(option))
+        throw UsageError(
+            fmt::format("--{} is about a picture; add --image FILE.png or --image-set DIR", option));
+  if (!request.image && line.value("metric"))
+    throw UsageError("--metric chooses what --image shows; --image-set shows everything");
+  if (request.image && request.image->extension() != ".png")
+    throw UsageError(
+        fmt::format("--image writes PNG files; '{}' does not end in .png", request.image->string()));
+  read_content(line, metrics, request.content);
+  request.content.relative = relative;
+  if (const auto size = line.value("size"))
+    std::tie(request.width, request.height) = parse_pixels("size", *size);
+  if (request.width < kLeastSide || request.height < kLeastSide)
+    throw UsageError(fmt::format("--size: pictures have at least {} x {} pixels", kLeastSide, kLeastSide));
+  if (const auto target = line.value("target")) request.target = parse_vector3("target", *target);
+  return request;
+}
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,30 @@
+// picture_options.h — What `analyze` draws: the options of pictures and of the exported scene.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "analysis/metric.h"
+#include "cli/command_line.h"
+#include "mesh/scene.h"
+#include "pictures/picture_content.h"
+
+namespace scene_analyzer::cli {
+
+struct PictureRequest {
+  std::optional<std::filesystem::path> image;      // --image: one PNG file, of `content`
+  std::optional<std::filesystem::path> image_set;  // --image-set: a folder for one of everything
+  pictures::Content content;                       // subject, colour map, emphasis
+  std::uint32_t width = 1280, height = 720;        // pixels, the legend included
+  std::optional<mesh::Vector3> target;             // world; default: see scene_render::make_camera
+
+  bool wanted() const { return image || image_set; }
+};
+
+void add_picture_options(cxxopts::Options& options);
+
+// Throws UsageError, also for options that change nothing without --image or --image-set.
+PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metrics, bool relative);
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,33 @@
+// scene_loader.h — The assets of a report as one scene on the device.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "analysis/analysis.h"
+#include "pipeline/measure.h"
+#include "scene_render/scene_model.h"
+
+namespace scene_analyzer::cli {
+
+// Appends one asset to a scene that is to be drawn.
+class SceneLoader {
+ public:
+  explicit SceneLoader(gpu::Device& device) : device_(device), builder_(device) {}
+
+  // Imports `analysis.asset`, with textures. `groups`: with planar groups, which are measured anew, as no
+  // analysis file holds them. Throws InputError, also when the asset is no longer what was analysed;
+  // gpu::OutOfMemory.
+  void add(const analysis::AssetAnalysis& analysis, bool groups, const pipeline::Progress& progress);
+
+  scene_render::SceneModel finish() { return builder_.finish(); }
+
+ private:
+  void add_with_groups(const mesh::Scene& scene, const analysis::AssetAnalysis& analysis,
+                       const pipeline::Progress& progress);
+
+  gpu::Device& device_;
+  scene_render::SceneModelBuilder builder_;
+};
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,15 @@
+// picture.h — A picture in memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace scene_analyzer::scene_render {
+
+// RGBA, 4 bytes per pixel, rows from the top.
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+}  // namespace scene_analyzer::scene_render

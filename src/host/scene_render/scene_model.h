@@ -1,0 +1,96 @@
+// scene_model.h — The meshes of a scene on the device, ready to be drawn.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/device.h"
+#include "gpu/recorder.h"
+#include "mesh/scene.h"
+#include "scene_render/drawable_mesh.h"
+
+namespace scene_analyzer::scene_render {
+
+// How large the planar groups of one mesh's triangles are: 0 for a triangle alone to 255 for the largest
+// group.
+using GroupShades = std::vector<std::uint8_t>;
+// `sizes`: per triangle, of its group.
+GroupShades shade_groups(std::span<const std::uint32_t> sizes);
+
+class SceneModel {
+ public:
+  // One mesh instance, in the scene's order.
+  struct Instance {
+    std::uint32_t mesh = 0;
+    mesh::Matrix4 world = mesh::kIdentity4;
+    std::optional<std::array<float, 4>> own_color;  // of its material, [0,1]; absent: it has none
+    std::optional<std::uint32_t> texture;
+    std::optional<std::uint32_t> groups;  // where its triangles' groups are known
+  };
+
+  std::size_t size() const { return instances_.size(); }
+  const Instance& instance(std::size_t index) const { return instances_[index]; }
+  bool has_own_color(std::size_t index) const;
+
+  // Memory on the device for vertices, indices and groups: at most 60 per triangle of a mesh; textures are
+  // not counted.
+  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t triangles() const { return triangles_; }  // of all meshes, each once
+
+ private:
+  friend class SceneModelBuilder;
+  friend class SceneRenderer;
+
+  // Where a mesh lies in `pages_[page]`; an absent part is none of it.
+  struct Slot {
+    std::uint32_t page = 0;
+    std::uint64_t positions = 0;  // bytes
+    std::optional<std::uint64_t> normals, texture_positions;
+    std::optional<std::uint32_t> first_index;
+    std::uint32_t corners = 0;
+    mesh::Vector3 center{};
+    double radius = 1;
+    std::array<double, 2> texture_low{}, texture_range{};
+  };
+  struct GroupSlot {
+    std::uint32_t page = 0, first = 0;  // byte within group_pages_[page]
+  };
+
+  std::vector<gpu::Buffer> pages_;
+  std::vector<gpu::Array<std::uint32_t>> group_pages_;
+  std::vector<Slot> slots_;
+  std::vector<GroupSlot> group_slots_;
+  std::vector<gpu::Texture> textures_;
+  std::vector<Instance> instances_;
+  std::uint64_t bytes_ = 0, triangles_ = 0;
+};
+
+class SceneModelBuilder {
+ public:
+  explicit SceneModelBuilder(gpu::Device& device) : device_(device) {}
+
+  // Appends all instances of `scene`, which may be gone afterwards. `groups`: empty, or per instance its
+  // triangles' groups, null where they are not known. Textures without pixels are left out. Throws
+  // gpu::OutOfMemory. Cost: linear in the scene; memory on the host some 64 MiB besides one mesh.
+  void add(const mesh::Scene& scene, std::span<const GroupShades* const> groups = {});
+
+  SceneModel finish();
+
+ private:
+  std::uint32_t add_mesh(const mesh::TriangleMesh& mesh, bool textured);
+  std::optional<std::uint32_t> add_groups(const GroupShades& groups);
+  void add_textures(const mesh::Scene& scene);
+  std::uint64_t append(std::span<const std::uint32_t> words);
+  void flush_page();
+  void flush_groups();
+
+  gpu::Device& device_;
+  SceneModel model_;
+  std::vector<std::uint32_t> page_;            // of the page that is filled
+  GroupShades group_page_;                     //
+  std::vector<std::uint32_t> texture_number_;  // of the scene being added; kNone: it cannot be shown
+};
+
+}  // namespace scene_analyzer::scene_render
