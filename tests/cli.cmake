@@ -3,7 +3,7 @@ test_binary(cli
           selftest_test.cpp
           run_program.cpp analyze_test.cpp histograms_test.cpp signals_test.cpp picture_options_test.cpp pictures_test.cpp
           bad_input_test.cpp
-          commands_test.cpp device_limit_test.cpp
+          commands_test.cpp device_limit_test.cpp export_test.cpp
   LINK cli reference test_meshes nlohmann_json::nlohmann_json PkgConfig::cairo util)
 # The layer is opened by Vulkan's loader, which finds it through the manifest.
 set(test_layers ${CMAKE_BINARY_DIR}/test-layers)

@@ -70,6 +70,11 @@ TEST(PictureOptions, EveryOptionArrives) {
   EXPECT_EQ(parse({"--image", "a.png", "--metric", "planar_groups"}).pictures.content.subject,
             Subject::kPlanarGroups);
   EXPECT_EQ(parse({"--image-set", "set"}).pictures.image_set, "set");
+  const AnalyzeRequest exported =
+      parse({"--export", "a.glb", "--metric", "distance", "--colormap", "cividis"});
+  EXPECT_EQ(exported.export_file, "a.glb");
+  EXPECT_EQ(exported.pictures.content.metric, analysis::Metric::kDistance);
+  EXPECT_FALSE(exported.pictures.wanted());
 }
 
 TEST(PictureOptions, WrongOnesAreRefusedWithARemedy) {
@@ -95,8 +100,15 @@ TEST(PictureOptions, WrongOnesAreRefusedWithARemedy) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "");
   EXPECT_THAT(refusal({"--image-set", file.string()}), HasSubstr("is a file"));
-  for (const char* option : {"--metric", "--colormap", "--size", "--target", "--emphasis"})
-    EXPECT_THAT(refusal({option, "viridis"}), HasSubstr("add --image FILE.png or --image-set DIR")) << option;
+  for (const char* option : {"--size", "--target", "--emphasis"})
+    EXPECT_THAT(refusal({"--export", "a.glb", option, "viridis"}),
+                HasSubstr("add --image FILE.png or --image-set DIR"))
+        << option;
+  for (const char* option : {"--metric", "--colormap"})
+    EXPECT_THAT(refusal({option, "viridis"}), HasSubstr("or --export FILE.glb")) << option;
+  EXPECT_THAT(refusal({"--export", "a.gltf"}), AllOf(HasSubstr("a.gltf"), HasSubstr(".glb")));
+  EXPECT_THAT(refusal({"--export", "none/a.glb"}), HasSubstr("'none' does not exist"));
+  EXPECT_THAT(refusal({"--export", "a.glb", "--metric", "planar_groups"}), HasSubstr("one colour per mesh"));
 }
 
 }  // namespace

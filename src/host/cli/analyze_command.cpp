@@ -13,6 +13,7 @@
 #include "cli/analyze_assets.h"
 #include "cli/analyze_options.h"
 #include "cli/exit_code.h"
+#include "cli/export_file.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
 #include "cli/picture_files.h"
@@ -114,6 +115,7 @@ int analyze_command(std::span<const std::string> arguments) {
   warn_if_timings_are_mixed(report);
   bool written = write_outputs(request, report);
   written = write_pictures(request, report, device) && written;
+  written = write_export(request, report) && written;
   if (!device_was_used_well(device)) return kUnusable;
   return written && analyses.all_good ? kSuccess : kInputFailed;
 }

@@ -170,7 +170,11 @@ void read_output(const CommandLine& line, AnalyzeRequest& request) {
   if (request.json) check_output("json", *request.json, request.assets);
   if (request.csv) check_output("csv", *request.csv, request.assets);
   if (request.pictures.image) check_output("image", *request.pictures.image, request.assets);
-  check_different({{"json", request.json}, {"csv", request.csv}, {"image", request.pictures.image}});
+  if (request.export_file) check_output("export", *request.export_file, request.assets);
+  check_different({{"json", request.json},
+                   {"csv", request.csv},
+                   {"image", request.pictures.image},
+                   {"export", request.export_file}});
 }
 
 void read_running(const CommandLine& line, AnalyzeRequest& request) {
@@ -205,6 +209,7 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
   for (const std::string& asset : request.assets)
     if (asset.empty())
       throw UsageError("an asset's name is empty; is a variable of the calling script unset?");
+  request.export_file = read_export(line);
   request.pictures = read_pictures(line, request.pipeline.metrics, request.ratings.relative);
   request.pictures.image_set = read_folder(line, "image-set");
   read_output(line, request);

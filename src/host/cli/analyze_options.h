@@ -23,7 +23,8 @@ struct AnalyzeRequest {
   std::optional<std::filesystem::path> json, csv;            // "-": standard output, at most one of the two
   std::optional<std::filesystem::path> histograms, signals;  // folders, created when missing
   PictureRequest pictures;
-  std::string device;  // selector, "" = the preferred one
+  std::optional<std::filesystem::path> export_file;  // --export, GLB
+  std::string device;                                // selector, "" = the preferred one
   LogLevel log = LogLevel::kNormal;
 
   bool table() const { return json != "-" && csv != "-"; }

@@ -65,7 +65,11 @@ void read_content(const CommandLine& line, analysis::MetricSet metrics, pictures
 
 void add_picture_options(cxxopts::Options& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Pictures")(
+  options.add_options("Pictures")("export",
+                                  "write the scene as binary glTF with the colours of ratings as vertex "
+                                  "colours, and ratings as extras of its "
+                                  "nodes, for any viewer or modelling program",
+                                  text(), "FILE.glb")(
       "image", "draw the scene, every mesh in the colour of its rating, and write it to FILE", text(),
       "FILE.png")(
       "image-set",
@@ -88,21 +92,35 @@ void add_picture_options(cxxopts::Options& options) {
                        text(), "extremes");
 }
 
+std::optional<std::filesystem::path> read_export(const CommandLine& line) {
+  const std::optional<std::filesystem::path> file = line.value("export");
+  if (file && file->extension() != ".glb")
+    throw UsageError(fmt::format("--export writes binary glTF; '{}' does not end in .glb", file->string()));
+  return file;
+}
+
 PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metrics, bool relative) {
   PictureRequest request;
   request.image = line.value("image");
   request.image_set = line.value("image-set");
-  if (!request.wanted())
-    for (const char* option : {"metric", "colormap", "size", "target", "emphasis"})
-      if (line.value(option))
-        throw UsageError(
-            fmt::format("--{} is about a picture; add --image FILE.png or --image-set DIR", option));
-  if (!request.image && line.value("metric"))
-    throw UsageError("--metric chooses what --image shows; --image-set shows everything");
+  const bool exported = line.value("export").has_value();
+  for (const char* option : {"size", "target", "emphasis"})
+    if (!request.wanted() && line.value(option))
+      throw UsageError(
+          fmt::format("--{} is about a picture; add --image FILE.png or --image-set DIR", option));
+  for (const char* option : {"metric", "colormap"})
+    if (!request.wanted() && !exported && line.value(option))
+      throw UsageError(fmt::format(
+          "--{} is about colours; add --image FILE.png, --image-set DIR or --export FILE.glb", option));
+  if (!request.image && !exported && line.value("metric"))
+    throw UsageError("--metric chooses what --image and --export show; --image-set shows everything");
   if (request.image && request.image->extension() != ".png")
     throw UsageError(
         fmt::format("--image writes PNG files; '{}' does not end in .png", request.image->string()));
   read_content(line, metrics, request.content);
+  if (exported && request.content.subject == Subject::kPlanarGroups)
+    throw UsageError(
+        "--export has one colour per mesh, which planar_groups has not; choose another --metric");
   request.content.relative = relative;
   if (const auto size = line.value("size"))
     std::tie(request.width, request.height) = parse_pixels("size", *size);

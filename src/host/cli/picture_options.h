@@ -24,7 +24,10 @@ struct PictureRequest {
 
 void add_picture_options(cxxopts::Options& options);
 
-// Throws UsageError, also for options that change nothing without --image or --image-set.
+// Of --export. Throws UsageError.
+std::optional<std::filesystem::path> read_export(const CommandLine& line);
+
+// Throws UsageError, also for options that change nothing without --image, --image-set or --export.
 PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metrics, bool relative);
 
 }  // namespace scene_analyzer::cli

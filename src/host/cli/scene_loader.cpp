@@ -1,34 +1,12 @@
 #include "cli/scene_loader.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "base/error.h"
-#include "import/import.h"
+#include "cli/import_again.h"
 
 namespace scene_analyzer::cli {
-namespace {
-
-// Between the analysis and now the file may have been written to.
-bool is_what_was_analysed(const mesh::Scene& scene, const analysis::AssetAnalysis& analysis) {
-  const auto same = [&](const mesh::Instance& instance, const analysis::InstanceAnalysis& analysed) {
-    return scene.meshes[instance.mesh].triangle_count() ==
-               analysis.geometries[analysed.geometry].source_triangles &&
-           instance.world == analysed.world;
-  };
-  return std::ranges::equal(scene.instances, analysis.instances, same);
-}
-
-}  // namespace
-
 void SceneLoader::add(const analysis::AssetAnalysis& analysis, bool groups,
                       const pipeline::Progress& progress) {
   progress(0, "import for pictures");
-  const mesh::Scene scene = import::import_asset(analysis.asset, {}, import::Textures::kDecode);
-  if (!is_what_was_analysed(scene, analysis))
-    throw InputError(
-        fmt::format("{}: it has changed since it was analysed a moment ago; run again", analysis.asset));
+  const mesh::Scene scene = import_again(analysis, import::Textures::kDecode);
   progress(0.5, "upload for pictures");
   if (groups)
     add_with_groups(scene, analysis, progress);
