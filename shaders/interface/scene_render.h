@@ -9,6 +9,7 @@ INTERFACE_BEGIN(scene_render)
 INTERFACE_CONST uint kTextured = 1u;      // the mesh's own colour is multiplied by its texture
 INTERFACE_CONST uint kMixLuminance = 2u;  // the mean of the colour and the own colour's luminance is shown
 INTERFACE_CONST uint kOwnColor = 4u;      // the own colour is shown
+INTERFACE_CONST uint kUnlit = 16u;        // the colour as it is
 INTERFACE_CONST uint kHatched = 8u;       // with darker stripes: there is no value
 
 // One mesh instance. Colours are packed, red in the lowest byte.

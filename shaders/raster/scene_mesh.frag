@@ -20,5 +20,9 @@ void main() {
   if ((params.flags & kMixLuminance) != 0)
     color.rgb = (color.rgb + dot(own_color(), vec3(0.299, 0.587, 0.114))) / 2;
   if ((params.flags & kHatched) != 0 && fract((gl_FragCoord.x + gl_FragCoord.y) / 8) < 0.5) color.rgb *= 0.8;
+  if ((params.flags & kUnlit) != 0) {
+    shown = color;
+    return;
+  }
   shown = vec4(color.rgb * shade(shaded_normal(view_position, view_normal)), color.a);
 }

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <stop_token>
 #include <thread>
 
 #include "import/temp_folder.h"
@@ -42,6 +43,24 @@ TEST(Worker, AHangEndsAtTheTimeLimit) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_THAT(refusal_when("hang", {.seconds = 0.3}), HasSubstr("takes longer than the limit of 0.3 s"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(Worker, AskedToStopItIsKilled) {
+  const TempFolder folder;
+  const std::filesystem::path asset = folder.write("a.obj", kTriangle);
+  for (const int milliseconds : {0, 200}) {
+    const Misbehaviour misbehaviour("hang");
+    std::stop_source stop;
+    const std::jthread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      stop.request_stop();
+    });
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THROW(import_asset(asset, {.stop = stop.get_token()}), Stopped);
+    EXPECT_THROW(import_asset(asset, {.stop = stop.get_token()}, Textures::kDecode), Stopped);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  }
+  EXPECT_EQ(refusal(asset, {.stop = std::stop_source().get_token()}), "");
 }
 
 TEST(Worker, AnUnexpectedExitIsTold) {

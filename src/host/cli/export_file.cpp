@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cli/import_again.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "pipeline/import_again.h"
 #include "report/glb.h"
 
 namespace scene_analyzer::cli {
@@ -31,7 +31,8 @@ std::string make_glb(const AnalyzeRequest& request, const report::SceneReport& r
     check_interrupt();
     progress.start_asset(i, std::filesystem::path(report.assets[i].asset).filename().string());
     progress.update(i, 0, "import for export");
-    scenes.push_back(import_again(report.assets[i], import::Textures::kLeave));
+    scenes.push_back(
+        pipeline::import_again(report.assets[i], request.pipeline.import_limits, import::Textures::kLeave));
     progress.finish_asset(i);
   }
   progress.start_asset(scenes.size(), request.export_file->filename().string());

@@ -15,8 +15,10 @@
 #include "cli/interrupt.h"
 #include "cli/logging.h"
 #include "cli/option_parsing.h"
+#include "cli/view_command.h"
 #include "gpu/error.h"
 #include "import/import.h"
+#include "window/window.h"
 
 namespace scene_analyzer::cli {
 namespace {
@@ -29,6 +31,7 @@ constexpr const char* kHelp =
     "\n"
     "Commands:\n"
     "  analyze   rate every mesh of one or several assets\n"
+    "  view      look at the rated scene in a window\n"
     "  devices   list the devices that can compute, or test one against known results\n"
     "  cache     remove old analysis files\n"
     "\n"
@@ -39,12 +42,14 @@ constexpr const char* kHelp =
     "  scene-analyzer analyze room.glb\n";
 
 using Command = int (*)(std::span<const std::string>);
-const std::map<std::string, Command> kCommands = {
-    {"analyze", analyze_command}, {"cache", cache_command}, {"devices", devices_command}};
+const std::map<std::string, Command> kCommands = {{"analyze", analyze_command},
+                                                  {"cache", cache_command},
+                                                  {"devices", devices_command},
+                                                  {"view", view_command}};
 
 int dispatch(const std::vector<std::string>& arguments) {
   if (arguments.empty())
-    throw UsageError("no command is given: analyze, devices or cache; see scene-analyzer --help");
+    throw UsageError("no command is given: analyze, view, devices or cache; see scene-analyzer --help");
   const std::string& name = arguments.front();
   if (name == "--help" || name == "-h" || name == "help") {
     fmt::print("{}", kHelp);
@@ -91,6 +96,11 @@ int run(const std::vector<std::string>& arguments) {
         kUnusable, error,
         "; close other programs that use the device, analyse fewer assets at once or choose another "
         "device with --device");
+  } catch (const gpu::Error& error) {
+    return report_error(kUnusable, error);
+  } catch (const window::NoDisplay& error) {
+    return report_error(kUnusable, error,
+                        "; without a display, 'scene-analyzer analyze FILE --image FILE.png' draws pictures");
   } catch (const Interrupted& stop) {
     log_warning("stopped; finished assets are kept in their analysis files");
     return stop.exit_code();

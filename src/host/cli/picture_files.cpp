@@ -102,7 +102,7 @@ class Studio {
   scene_render::SceneModel load(gpu::Device& device) {
     const bool groups = std::ranges::any_of(
         files_, [](const PictureFile& file) { return file.content.subject == Subject::kPlanarGroups; });
-    SceneLoader loader(device);
+    SceneLoader loader(device, request_.pipeline.import_limits);
     for (std::size_t i = 0; i < report_.assets.size(); ++i) {
       progress_.start_asset(i, fs::path(report_.assets[i].asset).filename().string());
       loader.add(report_.assets[i], groups && renderer_.can_draw_groups(),

@@ -1,12 +1,12 @@
 #include "cli/scene_loader.h"
 
-#include "cli/import_again.h"
+#include "pipeline/import_again.h"
 
 namespace scene_analyzer::cli {
 void SceneLoader::add(const analysis::AssetAnalysis& analysis, bool groups,
                       const pipeline::Progress& progress) {
   progress(0, "import for pictures");
-  const mesh::Scene scene = import_again(analysis, import::Textures::kDecode);
+  const mesh::Scene scene = pipeline::import_again(analysis, limits_, import::Textures::kDecode);
   progress(0.5, "upload for pictures");
   if (groups)
     add_with_groups(scene, analysis, progress);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/analysis.h"
+#include "import/import.h"
 #include "pipeline/measure.h"
 #include "scene_render/scene_model.h"
 
@@ -13,7 +14,8 @@ namespace scene_analyzer::cli {
 // Appends one asset to a scene that is to be drawn.
 class SceneLoader {
  public:
-  explicit SceneLoader(gpu::Device& device) : device_(device), builder_(device) {}
+  SceneLoader(gpu::Device& device, const import::Limits& limits)
+      : device_(device), limits_(limits), builder_(device) {}
 
   // Imports `analysis.asset`, with textures. `groups`: with planar groups, which are measured anew, as no
   // analysis file holds them. Throws InputError, also when the asset is no longer what was analysed;
@@ -27,6 +29,7 @@ class SceneLoader {
                        const pipeline::Progress& progress);
 
   gpu::Device& device_;
+  const import::Limits& limits_;
   scene_render::SceneModelBuilder builder_;
 };
 

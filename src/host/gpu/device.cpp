@@ -17,7 +17,8 @@ constexpr std::uint64_t kWaitSliceNanoseconds = 1'000'000'000;
 constexpr std::uint32_t kFirstMessageAfterSeconds = 30;
 
 std::unique_ptr<Device::Native> choose(const DeviceOptions& options) {
-  auto native = std::make_unique<Device::Native>(make_instance(options.validation));
+  auto native =
+      std::make_unique<Device::Native>(make_instance(options.validation, options.surface_extensions));
   native->validation = options.validation;
   std::vector<vk::raii::PhysicalDevice> devices = physical_devices(native->instance);
   std::vector<DeviceInfo> infos;
@@ -29,11 +30,12 @@ std::unique_ptr<Device::Native> choose(const DeviceOptions& options) {
   return native;
 }
 
-vk::raii::Device create_device(const Device::Native& native) {
+vk::raii::Device create_device(const Device::Native& native, bool presents) {
   const float priority = 1;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = native.queue_family, .queueCount = 1, .pQueuePriorities = &priority};
-  const std::array extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  if (presents) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   vk::PhysicalDeviceVulkan13Features features13{
       .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
   // What is not asked for in refusals_of(), every device of Vulkan 1.3 has.
@@ -45,6 +47,7 @@ vk::raii::Device create_device(const Device::Native& native) {
       .pNext = &features12,
       .features = {.fullDrawIndexUint32 = native.physical_device.getFeatures().fullDrawIndexUint32,
                    .geometryShader = native.info.numbers_triangles,
+                   .fillModeNonSolid = native.info.draws_wireframes,
                    .pipelineStatisticsQuery = native.info.counts_invocations,
                    .shaderFloat64 = true,
                    .shaderInt64 = true}};
@@ -58,7 +61,10 @@ void create_objects(Device::Native& native, const DeviceOptions& options) {
   native.limits = properties.limits;
   native.memory_types = MemoryTypes(native.physical_device.getMemoryProperties(), native.info.type);
   native.queue_family = choose_queue_family(native.physical_device).value();
-  native.device = create_device(native);
+  if (!options.surface_extensions.empty() && !can_present(native.physical_device))
+    throw Error("device " + native.info.name +
+                " cannot show pictures in a window (VK_KHR_swapchain is missing)");
+  native.device = create_device(native, !options.surface_extensions.empty());
   native.queue = native.device.getQueue(native.queue_family, 0);
   native.command_pool = {
       native.device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,

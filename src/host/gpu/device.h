@@ -46,6 +46,7 @@ struct DeviceInfo {
   double timestamp_period_ns = 0;     // of one tick
   bool counts_invocations = false;    // of shaders, per draw (pipelineStatisticsQuery)
   bool numbers_triangles = false;     // fragment shaders know the triangle's number (geometryShader)
+  bool draws_wireframes = false;      // fillModeNonSolid
   std::vector<std::string> refusals;  // why it cannot be used, one reason each; empty: usable
 };
 
@@ -56,6 +57,9 @@ std::vector<DeviceInfo> list_devices();
 struct DeviceOptions {
   std::string selector;     // "", an index, or a part of the name (case-insensitive)
   bool validation = false;  // validation layer with synchronisation validation; throws when missing
+  // For a window: what its system wants of Vulkan, and that the device can show pictures there. Empty: no
+  // window.
+  std::vector<std::string> surface_extensions = {};
   // Where the pipeline cache file is kept; absent: nowhere.
   std::optional<std::filesystem::path> cache_folder;
 };

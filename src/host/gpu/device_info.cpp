@@ -95,6 +95,7 @@ void describe_drawing(const vk::raii::PhysicalDevice& device, const vk::Physical
   const vk::PhysicalDeviceFeatures features = device.getFeatures();
   info.counts_invocations = features.pipelineStatisticsQuery != 0;
   info.numbers_triangles = features.geometryShader != 0;
+  info.draws_wireframes = features.fillModeNonSolid != 0;
 }
 
 }  // namespace
@@ -116,6 +117,10 @@ std::optional<std::uint32_t> choose_queue_family(const vk::raii::PhysicalDevice&
     if (!compute) compute = i;
   }
   return compute;
+}
+
+bool can_present(const vk::raii::PhysicalDevice& device) {
+  return has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 }
 
 std::uint64_t free_memory_bytes(const vk::raii::PhysicalDevice& device, DeviceType type) {

@@ -13,6 +13,9 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& device, std::uint32_t
 std::vector<vk::raii::PhysicalDevice> physical_devices(const Instance& instance);
 
 // The queue family work is submitted to: one with compute and graphics, else one with compute.
+// Whether it has what windows need.
+bool can_present(const vk::raii::PhysicalDevice& device);
+
 std::optional<std::uint32_t> choose_queue_family(const vk::raii::PhysicalDevice& device);
 
 // Free bytes of the heap that buffers come from (see DeviceInfo::free_memory_bytes).

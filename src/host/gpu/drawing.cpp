@@ -101,6 +101,25 @@ void record_begin_rendering(const vk::raii::CommandBuffer& commands, const Rende
 
 }  // namespace
 
+void record_with_color(const vk::raii::CommandBuffer& commands, const RenderTarget::Impl& images,
+                       const std::function<void(const vk::raii::Image&)>& use) {
+  const auto change = [&](const Image& image, Layout old_layout, Layout new_layout) {
+    record_layouts(commands, {change_layout(image, Aspect::eColor, old_layout, new_layout)});
+  };
+  change(images.color, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal);
+  if (images.samples > 1) {
+    change(images.resolved, Layout::eUndefined, Layout::eTransferDstOptimal);
+    commands.resolveImage(*images.color.image, Layout::eTransferSrcOptimal, *images.resolved.image,
+                          Layout::eTransferDstOptimal,
+                          vk::ImageResolve{.srcSubresource = kWholeColor,
+                                           .dstSubresource = kWholeColor,
+                                           .extent = {images.extent.width, images.extent.height, 1}});
+    change(images.resolved, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
+  }
+  use(images.samples > 1 ? images.resolved.image : images.color.image);
+  change(images.color, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal);
+}
+
 void Recorder::clear(const RenderTarget& target, const std::array<float, 4>& color, float depth) {
   const vk::raii::CommandBuffer& commands = impl_->next_step();
   const RenderTarget::Impl& images = target.impl();
@@ -127,6 +146,7 @@ void Recorder::begin_rendering(const RenderTarget& target) {
   record_begin_rendering(commands, target.impl(), vk::AttachmentLoadOp::eLoad, vk::ClearValue{.color = {}},
                          0);
   impl_->rendering = &target.impl();
+  impl_->clipped = false;
   impl_->drawn = true;
 }
 
@@ -152,6 +172,14 @@ void Recorder::draw_bytes(const RasterPipeline& pipeline, const void* params, st
   if (params_bytes != 0)
     commands.pushConstants<std::byte>(*raster.layout, kDrawStages, 0,
                                       {params_bytes, static_cast<const std::byte*>(params)});
+  if (draw.clip || impl_->clipped) {
+    const vk::Extent2D& extent = impl_->rendering->extent;
+    const auto [left, top, width, height] =
+        draw.clip.value_or(std::array{0u, 0u, extent.width, extent.height});
+    commands.setScissor(
+        0, vk::Rect2D{{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)}, {width, height}});
+    impl_->clipped = draw.clip.has_value();
+  }
   record_vertex_inputs(commands, raster, draw);
   record_descriptors(commands, raster, draw);
   if (draw.indices != nullptr)
@@ -174,24 +202,13 @@ void Recorder::copy_color(const RenderTarget& from, const Buffer& to, std::uint6
                             " bytes has no room for picture '" + images.name + "' at " +
                             std::to_string(offset));
   const vk::raii::CommandBuffer& commands = impl_->next_step();
-  const auto change = [&](const Image& image, Layout old_layout, Layout new_layout) {
-    record_layouts(commands, {change_layout(image, Aspect::eColor, old_layout, new_layout)});
-  };
-  constexpr vk::ImageSubresourceLayers kWhole{.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
-  const vk::Extent3D extent{images.extent.width, images.extent.height, 1};
-  change(images.color, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal);
-  const Image& source = images.samples > 1 ? images.resolved : images.color;
-  if (images.samples > 1) {
-    change(images.resolved, Layout::eUndefined, Layout::eTransferDstOptimal);
-    commands.resolveImage(
-        *images.color.image, Layout::eTransferSrcOptimal, *images.resolved.image, Layout::eTransferDstOptimal,
-        vk::ImageResolve{.srcSubresource = kWhole, .dstSubresource = kWhole, .extent = extent});
-    change(images.resolved, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal);
-  }
-  commands.copyImageToBuffer(
-      *source.image, Layout::eTransferSrcOptimal, *to.impl().buffer,
-      vk::BufferImageCopy{.bufferOffset = offset, .imageSubresource = kWhole, .imageExtent = extent});
-  change(images.color, Layout::eTransferSrcOptimal, Layout::eColorAttachmentOptimal);
+  record_with_color(commands, images, [&](const vk::raii::Image& source) {
+    commands.copyImageToBuffer(
+        *source, Layout::eTransferSrcOptimal, *to.impl().buffer,
+        vk::BufferImageCopy{.bufferOffset = offset,
+                            .imageSubresource = kWholeColor,
+                            .imageExtent = {images.extent.width, images.extent.height, 1}});
+  });
 }
 
 void Recorder::count_invocations() {

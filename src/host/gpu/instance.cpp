@@ -66,7 +66,7 @@ std::vector<std::string> ValidationLog::take() {
   return std::exchange(messages_, {});
 }
 
-Instance make_instance(bool validation) {
+Instance make_instance(bool validation, const std::vector<std::string>& surface_extensions) {
   Instance made{.log = std::make_unique<ValidationLog>(), .context = open_loader()};
   const vk::ApplicationInfo application{.pApplicationName = "scene-analyzer",
                                         .apiVersion = VK_API_VERSION_1_3};
@@ -77,14 +77,17 @@ Instance make_instance(bool validation) {
                                            .pEnabledValidationFeatures = &synchronization};
   auto messenger = messenger_info(*made.log);
   messenger.pNext = &features;  // so that creation and destruction of the instance are watched too
-  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  for (const std::string& extension : surface_extensions) extensions.push_back(extension.c_str());
   if (validation) {
     translated("listing Vulkan layers", [&] { require_validation_layer(made.context); });
     info.pNext = &messenger;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
-    info.setPEnabledExtensionNames(extensions);
+    extensions.insert(extensions.end(),
+                      {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
   }
+  info.setPEnabledExtensionNames(extensions);
   try {
     made.instance = vk::raii::Instance(made.context, info);
   } catch (const vk::IncompatibleDriverError&) {

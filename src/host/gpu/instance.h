@@ -30,8 +30,8 @@ struct Instance {
   vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
 };
 
-// Throws NoDevice when there is no Vulkan loader or no driver, Error when the validation layer is wanted but
-// missing.
-Instance make_instance(bool validation);
+// `surface_extensions`: what a window needs, or nothing. Throws NoDevice when there is no Vulkan loader or no
+// driver, Error when the validation layer is wanted but missing.
+Instance make_instance(bool validation, const std::vector<std::string>& surface_extensions = {});
 
 }  // namespace scene_analyzer::gpu

@@ -6,6 +6,7 @@
 
 #define VULKAN_HPP_NO_CONSTRUCTORS
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vulkan/vulkan_raii.hpp>
@@ -140,6 +141,7 @@ struct Recorder::Impl {
   std::vector<Recorder::Timing> timings;
   std::vector<Recorder::DrawCounts> draw_counts;
   const RenderTarget::Impl* rendering = nullptr;  // between begin_rendering() and end_rendering()
+  bool clipped = false;                           // the last draw had a clip
   bool drawn = false;                             // since the last barrier that waits for draws
   std::uint32_t step_count = 0;  // dispatches, fills and copies recorded; 0: the recording has not begun
 
@@ -150,11 +152,17 @@ struct Recorder::Impl {
   const vk::raii::CommandBuffer& next_step();
 };
 
-// The same after and before draws, and images.
-void record_barrier_for_drawing(const vk::raii::CommandBuffer& commands);
+inline constexpr vk::ImageSubresourceLayers kWholeColor = {.aspectMask = vk::ImageAspectFlagBits::eColor,
+                                                           .layerCount = 1};
+// Lets `use` record reads of the colours of a target that was rendered to, one sample per pixel, which lie as
+// eTransferSrcOptimal.
+void record_with_color(const vk::raii::CommandBuffer& commands, const RenderTarget::Impl& images,
+                       const std::function<void(const vk::raii::Image&)>& use);
 // Every step may read and write what any earlier compute or transfer command wrote, in this submission or
 // before.
 void record_barrier(const vk::raii::CommandBuffer& commands);
+// The same after and before draws, and images.
+void record_barrier_for_drawing(const vk::raii::CommandBuffer& commands);
 // Makes everything written readable through mapped memory after the fence.
 void record_barrier_to_host(const vk::raii::CommandBuffer& commands);
 

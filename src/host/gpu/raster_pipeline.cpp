@@ -12,10 +12,14 @@ namespace {
 
 vk::Format format_of(VertexFormat format) {
   switch (format) {
+    case VertexFormat::kFloat2:
+      return vk::Format::eR32G32Sfloat;
     case VertexFormat::kFloat3:
       return vk::Format::eR32G32B32Sfloat;
     case VertexFormat::kUint1:
       return vk::Format::eR32Uint;
+    case VertexFormat::kUnorm8x4:
+      return vk::Format::eR8G8B8A8Unorm;
     case VertexFormat::kUnorm16x2:
       return vk::Format::eR16G16Unorm;
   }
@@ -23,7 +27,8 @@ vk::Format format_of(VertexFormat format) {
 }
 
 std::uint32_t stride_of(VertexFormat format) {
-  return format == VertexFormat::kFloat3 ? 12 : 4;
+  if (format == VertexFormat::kFloat3) return 12;
+  return format == VertexFormat::kFloat2 ? 8 : 4;
 }
 
 vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, const RasterShaders& shaders) {
@@ -93,12 +98,19 @@ vk::raii::Pipeline make_pipeline(const Device::Native& native, const vk::raii::P
   vertex_input.setVertexAttributeDescriptions(inputs.attributes);
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-  const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1};
+  // Edges are drawn over their own triangles: a little nearer than these.
+  const float nearer = shaders.state.reversed_depth ? 1.0F : -1.0F;
+  const vk::PipelineRasterizationStateCreateInfo rasterization{
+      .polygonMode = shaders.state.wireframe ? vk::PolygonMode::eLine : vk::PolygonMode::eFill,
+      .depthBiasEnable = shaders.state.wireframe,
+      .depthBiasConstantFactor = 32 * nearer,
+      .depthBiasSlopeFactor = nearer,
+      .lineWidth = 1};
   const vk::PipelineMultisampleStateCreateInfo samples{.rasterizationSamples =
                                                            sample_count(shaders.state.samples)};
   const vk::PipelineDepthStencilStateCreateInfo depth{
-      .depthTestEnable = true,
-      .depthWriteEnable = !shaders.state.translucent,
+      .depthTestEnable = shaders.state.tests_depth,
+      .depthWriteEnable = shaders.state.tests_depth && !shaders.state.translucent,
       .depthCompareOp = shaders.state.reversed_depth ? vk::CompareOp::eGreater : vk::CompareOp::eLess};
   const vk::PipelineColorBlendAttachmentState channels = blending(shaders.state.translucent);
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1, .pAttachments = &channels};
@@ -134,6 +146,8 @@ RasterPipeline& RasterPipeline::operator=(RasterPipeline&&) noexcept = default;
 RasterPipeline Device::make_raster_pipeline(const std::string& name, const RasterShaders& shaders) {
   const std::string what = "raster pipeline '" + name + "'";
   if (!native_->info.can_draw) throw Error(what + ": device " + native_->info.name + " cannot draw");
+  if (shaders.state.wireframe && !native_->info.draws_wireframes)
+    throw Error(what + ": device " + native_->info.name + " cannot draw wireframes (fillModeNonSolid)");
   if (shaders.push_constant_bytes > native_->limits.maxPushConstantsSize)
     throw Error(what + ": " + std::to_string(shaders.push_constant_bytes) +
                 " bytes of parameters, the device takes " +

@@ -13,8 +13,10 @@ class Device;
 
 // What a vertex shader reads at location 0, 1, ...; each location has a buffer of its own, tightly packed.
 enum class VertexFormat {
+  kFloat2,
   kFloat3,
   kUint1,      // 32 bits
+  kUnorm8x4,   // four numbers of 8 bits, 0 to 255 read as 0 to 1
   kUnorm16x2,  // two numbers of 16 bits, 0 to 65535 read as 0 to 1
 };
 
@@ -25,6 +27,8 @@ struct RasterState {
   // Colours are laid over what is there by their alpha; what lies behind such triangles stays visible, be it
   // drawn before or after them.
   bool translucent = false;
+  bool tests_depth = true;  // otherwise depths are neither compared nor written
+  bool wireframe = false;   // edges only; needs DeviceInfo::draws_wireframes
 };
 
 struct RasterShaders {

@@ -71,6 +71,8 @@ class Recorder {
     std::uint32_t single_inputs = 0;  // bit i: input i has one element, which all vertices read
     const Texture* texture = nullptr;
     std::span<const BufferRange> buffers = {};  // of the fragment shader
+    // What of the picture may change: left, top, width and height in pixels. Absent: all of it.
+    std::optional<std::array<std::uint32_t, 4>> clip = std::nullopt;
   };
   template <typename Params>
   void draw(const RasterPipeline& pipeline, const Params& params, const Draw& draw) {

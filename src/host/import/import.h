@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 
 #include "mesh/scene.h"
@@ -18,6 +20,13 @@ inline constexpr const char* kWorkerArgument = "--import-worker";
 struct Limits {
   std::uint64_t memory_bytes = 0;  // address space of the worker; 0: derived from the file's size
   double seconds = 120;            // wall clock and CPU
+  std::stop_token stop = {};       // asked to stop, the worker is killed within a tenth of a second
+};
+
+// Thrown after Limits::stop; not a std::runtime_error, so that no handler of ordinary errors takes it.
+class Stopped : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the import was stopped"; }
 };
 
 // What becomes of base colour textures.
@@ -28,8 +37,9 @@ enum class Textures : std::uint8_t {
 
 // Reads `asset`. Throws InputError naming the file and the reason: missing, a folder, empty, unsupported
 // format, Assimp's own message, a missing .bin, a required glTF extension that is not on the tested list, a
-// crash (signal name) or an exceeded limit. An asset without any triangle is returned, not refused. Cost:
-// linear in the file; the Scene's arrays live in the shared memory that the worker filled, no copy is made.
+// crash (signal name) or an exceeded limit; Stopped. An asset without any triangle is returned, not refused.
+// Cost: linear in the file; the Scene's arrays live in the shared memory that the worker filled, no copy is
+// made.
 //
 // Textures::kDecode: embedded textures, and files in the asset's folder, each once, one after the other,
 // within the same limits; pictures of more than 16384 pixels a side or 64 Mi pixels are not tried. What

@@ -28,6 +28,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kBetweenLooks = 0.05;  // seconds, at whether to stop
+
 [[noreturn]] void throw_system_error(const char* doing, int error = errno) {
   throw std::system_error(error, std::generic_category(), doing);
 }
@@ -99,12 +101,14 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  // The wait status, or nothing when the time ran out and the child was killed.
-  std::optional<int> wait_for(double seconds) {
+  // The wait status, or nothing when the time ran out and the child was killed. Throws Stopped.
+  std::optional<int> wait_for(double seconds, const std::stop_token& stop) {
     if (handle_ < 0) throw_system_error("watching the import worker");
     const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
     while (true) {
-      const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
+      if (stop.stop_requested()) throw Stopped();
+      double left = std::chrono::duration<double>(deadline - Clock::now()).count();
+      if (stop.stop_possible()) left = std::min(left, kBetweenLooks);
       pollfd ready{handle_, POLLIN, 0};
       const int timeout = static_cast<int>(std::clamp(std::ceil(left * 1000), 0.0, 1e9));
       const int count = ::poll(&ready, 1, timeout);
@@ -196,7 +200,7 @@ Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Text
                   .spawn({program_invocation_name, kWorkerArgument, asset.string(),
                           std::to_string(limits.memory_bytes), std::to_string(whole_seconds(limits.seconds)),
                           std::to_string(::getpid()), std::to_string(static_cast<int>(textures))}));
-  const std::optional<int> status = child.wait_for(limits.seconds);
+  const std::optional<int> status = child.wait_for(limits.seconds, limits.stop);
   if (!status) throw WorkerFailure(out_of_time(limits));
 
   constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL;

@@ -25,8 +25,8 @@ struct Answer {
   std::span<const std::byte> memory;
 };
 
-// `limits` are already derived: memory_bytes > 0. Throws WorkerFailure, and std::system_error when the
-// machine cannot start a process.
+// `limits` are already derived: memory_bytes > 0. Throws WorkerFailure, Stopped, and std::system_error
+// when the machine cannot start a process.
 Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Textures textures);
 
 }  // namespace scene_analyzer::import

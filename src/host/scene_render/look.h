@@ -7,13 +7,15 @@ namespace scene_analyzer::scene_render {
 
 struct Look {
   enum class Fill {
-    kColor,     // `color`; mixed with the luminance of its own colour where it has one
-    kNoValue,   // neutral grey, hatched
-    kOwnColor,  // what the file says; light grey where it says nothing
-    kGroups,    // planar groups; kNoValue where they are not known
+    kColor,       // `color`; mixed with the luminance of its own colour where it has one
+    kNoValue,     // neutral grey, hatched
+    kOwnColor,    // what the file says; light grey where it says nothing
+    kGroups,      // planar groups; kNoValue where they are not known
+    kUnlitColor,  // `color` to the last bit, whatever the light: for telling meshes apart
   };
   Fill fill = Fill::kNoValue;
   ratings::Rgb color{};
+  bool edges = false;  // of its triangles, over it; see SceneRenderer::can_draw_edges()
   double opacity = 1;  // below 1 it hides nothing
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "interface/scene_render.h"
 // Generated:
 #include "scene_groups_frag.spv.h"
 #include "scene_mesh_frag.spv.h"
@@ -18,7 +17,7 @@ using ratings::Rgb;
 
 constexpr gpu::VertexFormat kInputs[] = {gpu::VertexFormat::kFloat3, gpu::VertexFormat::kUint1,
                                          gpu::VertexFormat::kUnorm16x2};
-constexpr Rgb kNoColorGrey = {0.8, 0.8, 0.8};
+constexpr Rgb kNoColorGrey = {0.8, 0.8, 0.8}, kEdgeInk = {0, 0, 0};
 // In distances from eye to target. Depths lose nothing by it, see scene_mesh.vert.
 constexpr double kNearest = 1e-5;
 // The normal 0, and the texture's first corner.
@@ -63,11 +62,12 @@ std::uint32_t flags_of(const SceneModel& model, std::size_t index, Look::Fill fi
   if (fill == Look::Fill::kColor && model.has_own_color(index)) flags |= kMixLuminance;
   if (fill == Look::Fill::kOwnColor && model.has_own_color(index)) flags |= kOwnColor;
   if (fill == Look::Fill::kNoValue) flags |= kHatched;
+  if (fill == Look::Fill::kUnlitColor) flags |= kUnlit;
   return flags;
 }
 
 Rgb color_of(const Look& look, Look::Fill fill) {
-  if (fill == Look::Fill::kColor) return look.color;
+  if (fill == Look::Fill::kColor || fill == Look::Fill::kUnlitColor) return look.color;
   return fill == Look::Fill::kNoValue ? kNoValueGrey : kNoColorGrey;
 }
 
@@ -93,21 +93,26 @@ SceneRenderer::SceneRenderer(gpu::Device& device, std::uint32_t samples)
 
 SceneRenderer::Pipelines SceneRenderer::make_pipelines(bool translucent) {
   const gpu::RasterState state{.samples = samples_, .reversed_depth = true, .translucent = translucent};
+  const gpu::RasterShaders meshes{.vertex = scene_mesh_vert_spv,
+                                  .fragment = scene_mesh_frag_spv,
+                                  .inputs = kInputs,
+                                  .push_constant_bytes = sizeof(SceneDrawParams),
+                                  .reads_texture = true,
+                                  .state = state};
   Pipelines pipelines;
-  pipelines.meshes = device_.make_raster_pipeline("scene", {.vertex = scene_mesh_vert_spv,
-                                                            .fragment = scene_mesh_frag_spv,
-                                                            .inputs = kInputs,
-                                                            .push_constant_bytes = sizeof(SceneDrawParams),
-                                                            .reads_texture = true,
-                                                            .state = state});
-  if (can_draw_groups())
-    pipelines.groups =
-        device_.make_raster_pipeline("planar groups", {.vertex = scene_mesh_vert_spv,
-                                                       .fragment = scene_groups_frag_spv,
-                                                       .inputs = kInputs,
-                                                       .push_constant_bytes = sizeof(SceneDrawParams),
-                                                       .buffer_count = 2,
-                                                       .state = state});
+  pipelines.meshes = device_.make_raster_pipeline("scene", meshes);
+  if (can_draw_edges()) {
+    gpu::RasterShaders edges = meshes;
+    edges.state.wireframe = true;
+    pipelines.edges = device_.make_raster_pipeline("edges", edges);
+  }
+  if (can_draw_groups()) {
+    gpu::RasterShaders groups = meshes;
+    groups.fragment = scene_groups_frag_spv;
+    groups.reads_texture = false;
+    groups.buffer_count = 2;
+    pipelines.groups = device_.make_raster_pipeline("planar groups", groups);
+  }
   return pipelines;
 }
 
@@ -152,17 +157,27 @@ void SceneRenderer::record_instance(gpu::Recorder& recorder, const SceneModel& m
                            .index_count = slot.corners,
                            .single_inputs = (slot.normals ? 0u : 2u) | (slot.texture_positions ? 0u : 4u)};
   const Pipelines& pipelines = look.opacity < 1 ? translucent_ : opaque_;
-  if (!groups) {
+  if (groups) {
+    const SceneModel::GroupSlot& group_slot = model.group_slots_[*instance.groups];
+    params.first_value = group_slot.first;
+    const std::array buffers{gpu::BufferRange(model.group_pages_[group_slot.page]),
+                             gpu::BufferRange(group_colors_)};
+    draw.buffers = buffers;
+    recorder.draw(pipelines.groups, params, draw);
+    draw.buffers = {};
+  } else {
     draw.texture = instance.texture ? &model.textures_[*instance.texture] : &white_;
     recorder.draw(pipelines.meshes, params, draw);
-    return;
   }
-  const SceneModel::GroupSlot& group_slot = model.group_slots_[*instance.groups];
-  params.first_value = group_slot.first;
-  const std::array buffers{gpu::BufferRange(model.group_pages_[group_slot.page]),
-                           gpu::BufferRange(group_colors_)};
-  draw.buffers = buffers;
-  recorder.draw(pipelines.groups, params, draw);
+  if (look.edges && can_draw_edges()) record_edges(recorder, draw, params);
+}
+
+void SceneRenderer::record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw draw,
+                                 SceneDrawParams params) const {
+  draw.texture = &white_;
+  params.color = pack(kEdgeInk, 0.6);
+  params.flags = interface::scene_render::kUnlit;
+  recorder.draw(translucent_.edges, params, draw);
 }
 
 void SceneRenderer::record(gpu::Recorder& recorder, const gpu::RenderTarget& target, const SceneModel& model,

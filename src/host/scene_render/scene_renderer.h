@@ -8,6 +8,7 @@
 
 #include "gpu/device.h"
 #include "gpu/recorder.h"
+#include "interface/scene_render.h"
 #include "ratings/ratings.h"
 #include "scene_render/camera.h"
 #include "scene_render/look.h"
@@ -35,13 +36,16 @@ class SceneRenderer {
 
   // Colours of planar groups, from a triangle alone to the largest group.
   void set_group_colors(ratings::ColorMap map);
+  bool can_draw_edges() const { return device_.info().draws_wireframes; }
   bool can_draw_groups() const { return device_.info().numbers_triangles; }
 
  private:
   struct Pipelines {
-    gpu::RasterPipeline meshes, groups;
+    gpu::RasterPipeline meshes, groups, edges;
   };
   Pipelines make_pipelines(bool translucent);
+  void record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw draw,
+                    interface::scene_render::SceneDrawParams params) const;
   void record_instance(gpu::Recorder& recorder, const SceneModel& model, std::size_t index, const Look& look,
                        const Camera& camera, double aspect) const;
 

@@ -1,4 +1,4 @@
-#include "cli/import_again.h"
+#include "pipeline/import_again.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace scene_analyzer::cli {
+namespace scene_analyzer::pipeline {
 namespace {
 
 // Between the analysis and now the file may have been written to.
@@ -20,14 +20,24 @@ bool is_what_was_analysed(const mesh::Scene& scene, const analysis::AssetAnalysi
   return std::ranges::equal(scene.instances, analysis.instances, same);
 }
 
+// As the analysis of an asset without any mesh has a row, so has the scene.
+void add_row_to_empty(mesh::Scene& scene) {
+  if (!scene.instances.empty()) return;
+  scene.materials.resize(1);
+  scene.meshes.resize(1);
+  scene.instances.resize(1);
+}
+
 }  // namespace
 
-mesh::Scene import_again(const analysis::AssetAnalysis& analysis, import::Textures textures) {
-  mesh::Scene scene = import::import_asset(analysis.asset, {}, textures);
+mesh::Scene import_again(const analysis::AssetAnalysis& analysis, const import::Limits& limits,
+                         import::Textures textures) {
+  mesh::Scene scene = import::import_asset(analysis.asset, limits, textures);
+  add_row_to_empty(scene);
   if (!is_what_was_analysed(scene, analysis))
     throw InputError(
-        fmt::format("{}: it has changed since it was analysed a moment ago; run again", analysis.asset));
+        fmt::format("{}: it has changed since it was analysed a moment ago; try again", analysis.asset));
   return scene;
 }
 
-}  // namespace scene_analyzer::cli
+}  // namespace scene_analyzer::pipeline

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""The review window under a virtual display, with real keys and a real mouse.
+
+    window_test.py PROGRAM
+
+Every key has to change what is printed (F12), what is drawn (F9) or which files there are. Needs Xvfb and xdotool.
+"""
+
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+KEYS_THAT_PRINT = ["F1", "F2", "F3", "F4", "F5", "F6", "F10", "F11", "e", "x", "c"]
+KEYS_THAT_MOVE = ["Left", "Right", "Up", "Down", "semicolon", "period", "w", "a", "s", "d", "plus", "minus"]
+UNTIMED = ("polygons_per_planar_group,planar_group_variation,relative_density,distance,cooccurrence_contrast,"
+           "fourier_transform")
+
+
+def wait_until(condition, what, seconds=60):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            sys.exit(f"FAILED: {what} did not happen within {seconds} s")
+        time.sleep(0.02)
+
+
+class Display:
+    def __enter__(self):
+        read_end, write_end = os.pipe()
+        self.process = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
+            pass_fds=[write_end], stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            self.name = ":" + pipe.readline().strip()
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+
+class Viewer:
+    """One run of the program in a folder of its own."""
+
+    def __init__(self, program, display, assets, folder, arguments=()):
+        self.folder = folder
+        self.environment = dict(os.environ, DISPLAY=display.name, XDG_CACHE_HOME=os.path.join(folder, "cache"))
+        self.output = open(os.path.join(folder, "output"), "w+b")
+        self.process = subprocess.Popen(
+            [program, "view", *assets, "--metrics", UNTIMED, "--cache-dir", folder, *arguments],
+            cwd=folder, env=self.environment, stdout=self.output, stderr=subprocess.STDOUT)
+
+    def xdotool(self, *arguments):
+        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def window(self):
+        found = subprocess.run(["xdotool", "search", "--name", "Scene Analyzer"], env=self.environment,
+                               capture_output=True, text=True)
+        return found.stdout.split()
+
+    def text(self):
+        self.output.flush()
+        with open(os.path.join(self.folder, "output"), errors="replace") as file:
+            return file.read()
+
+    def printed(self):
+        """What F12 prints."""
+        before = len(self.text())
+        self.xdotool("key", "F12")
+        wait_until(lambda: "Esc    quit" in self.text()[before:], "printing the keys")
+        return self.text()[before:]
+
+    def picture(self):
+        """The bytes of the picture that F9 writes."""
+        before = set(glob.glob(os.path.join(self.folder, "scene-picture-*.png")))
+        self.xdotool("key", "F9")
+        wait_until(lambda: len(self.text().split("the picture is in ")) > len(before) + 1, "writing a picture")
+        (new,) = set(glob.glob(os.path.join(self.folder, "scene-picture-*.png"))) - before
+        with open(new, "rb") as file:
+            return file.read()
+
+    def wait_for_scene(self):
+        wait_until(lambda: self.window() or self.process.poll() is not None, "opening the window")
+        # Titles say what is shown once there is something to show.
+        wait_until(lambda: subprocess.run(["xdotool", "search", "--name", "Scene Analyzer: "], env=self.environment,
+                                          capture_output=True).stdout, "showing the scene")
+
+    def end(self, code=0):
+        self.xdotool("key", "Escape")
+        wait_until(lambda: self.process.poll() is not None, "quitting")
+        check(self.process.returncode == code, f"exit code {self.process.returncode} instead of {code}", self.text())
+
+
+def check(good, what, details=""):
+    if not good:
+        sys.exit(f"FAILED: {what}\n{details}")
+
+
+def try_keys(viewer):
+    for key in KEYS_THAT_PRINT:
+        before, before_picture = viewer.printed(), viewer.picture()
+        viewer.xdotool("key", key)
+        after = viewer.printed()
+        check(after != before, f"{key} does not change what F12 prints", after)
+        check(viewer.picture() != before_picture, f"{key} does not change the picture")
+        if key != "c":  # on and off again
+            viewer.xdotool("key", key)
+            check(viewer.printed() == before, f"{key} twice is not as before")
+    for key in KEYS_THAT_MOVE:
+        before = viewer.picture()
+        viewer.xdotool("keydown", key)
+        time.sleep(0.3)
+        viewer.xdotool("keyup", key)
+        check(viewer.picture() != before, f"{key} does not move the scene")
+    before = viewer.picture()
+    viewer.xdotool("key", "Home")
+    check(viewer.picture() != before, "Home does not show the whole scene")
+
+
+def try_mouse(viewer):
+    whole = viewer.picture()
+    viewer.xdotool("mousemove", 805, 360, "click", 1)  # the middle of the free part: the table
+    time.sleep(0.5)
+    selected = viewer.picture()
+    check(selected != whole, "a click selects nothing")
+    viewer.xdotool("key", "f")
+    check(viewer.picture() != selected, "f does not show the selected mesh")
+    viewer.xdotool("key", "Home", "mousemove", 1270, 10, "click", 1)
+    time.sleep(0.5)
+    check(viewer.picture() == whole, "a click beside the scene does not deselect")
+    for button, what in ((1, "turn"), (3, "shift")):
+        before = viewer.picture()
+        viewer.xdotool("mousemove", 700, 300)
+        time.sleep(0.3)  # several frames for each step, also on a busy machine
+        viewer.xdotool("mousedown", button)
+        for _ in range(5):
+            time.sleep(0.3)
+            viewer.xdotool("mousemove_relative", 12, 5)
+        time.sleep(0.3)
+        viewer.xdotool("mouseup", button)
+        check(viewer.picture() != before, f"dragging does not {what} the scene")
+    before = viewer.picture()
+    viewer.xdotool("click", 4)
+    time.sleep(0.3)
+    check(viewer.picture() != before, "the wheel does not zoom")
+
+
+def try_window(viewer):
+    (window,) = viewer.window()
+    for width, height in ((700, 500), (1200, 300), (1280, 720)):
+        viewer.xdotool("windowsize", "--sync", window, width, height)
+        time.sleep(0.5)
+        header = viewer.picture()[16:24]
+        size = (int.from_bytes(header[:4], "big"), int.from_bytes(header[4:], "big"))
+        check(size == (width, height), f"the window of {width} x {height} gives a picture of {size}")
+    def processor_seconds():
+        with open(f"/proc/{viewer.process.pid}/stat") as file:
+            return sum(map(int, file.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
+    time.sleep(1)
+    before = processor_seconds()
+    time.sleep(2)
+    check(processor_seconds() - before < 0.2, "an idle window costs processor time")
+
+
+def try_ratings_file(viewer):
+    viewer.xdotool("key", "p")
+    path = os.path.join(viewer.folder, "scene-ratings-1.csv")
+    wait_until(lambda: "ratings are in" in viewer.text() and "scene-ratings-1.csv" in viewer.text(), "writing ratings")
+    with open(path) as file:
+        lines = file.read().splitlines()
+    check(len(lines) == 33, f"{len(lines)} lines instead of a head and 32 meshes")
+
+
+def try_without_display(program, scene):
+    environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    run = subprocess.run([program, "view", scene], env=environment, capture_output=True, text=True)
+    check(run.returncode == 2, f"exit code {run.returncode} without a display", run.stderr)
+    check("--image" in run.stderr, "without a display nothing names --image", run.stderr)
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    scene = os.path.join(os.path.dirname(__file__), "..", "..", "examples", "living-room.glb")
+    scene = os.path.abspath(scene)
+    try_without_display(program, scene)
+    with Display() as display, tempfile.TemporaryDirectory() as folder:
+        viewer = Viewer(program, display, [scene], folder)
+        viewer.wait_for_scene()
+        try_keys(viewer)
+        try_mouse(viewer)
+        try_window(viewer)
+        try_ratings_file(viewer)
+        viewer.end()
+    with Display() as display, tempfile.TemporaryDirectory() as folder:  # closed while it analyses
+        viewer = Viewer(program, display, [scene], folder)
+        wait_until(lambda: viewer.window() or viewer.process.poll() is not None, "opening the window")
+        viewer.end()
+    with Display() as display, tempfile.TemporaryDirectory() as folder:  # one bad asset
+        viewer = Viewer(program, display, [scene, "/nonexistent.obj"], folder)
+        viewer.wait_for_scene()
+        check("nonexistent.obj" in viewer.text(), "the missing asset is not named", viewer.text())
+        viewer.end(3)
+    print("all keys, the mouse and the window do what they should")
+
+
+if __name__ == "__main__":
+    main()
