@@ -30,6 +30,8 @@ vk::CompositeAlphaFlagBitsKHR choose_alpha(vk::CompositeAlphaFlagsKHR offered) {
 }  // namespace
 
 struct Presenter::Impl {
+  explicit Impl(Device::Native& owner) : native(owner) {}
+
   Device::Native& native;
   vk::raii::SurfaceKHR surface{nullptr};
   vk::SurfaceFormatKHR format;

@@ -7,10 +7,13 @@
 #include <map>
 #include <utility>
 
+#include "gpu/error.h"
+
 namespace scene_analyzer::scene_render {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMostTriangles = kNone / 3;  // corners are counted in 32 bits
 // Devices allow some thousand allocations, so small meshes share one; a larger mesh has one of its own.
 constexpr std::size_t kPageWords = std::size_t{16} << 20;
 
@@ -81,6 +84,9 @@ std::uint64_t SceneModelBuilder::append(std::span<const std::uint32_t> words) {
 
 std::uint32_t SceneModelBuilder::add_mesh(const mesh::TriangleMesh& mesh, bool textured) {
   const DrawableMesh drawable = make_drawable(mesh, textured);
+  if (drawable.triangles > kMostTriangles)
+    throw gpu::OutOfMemory("mesh \"" + mesh.name + "\" has " + std::to_string(drawable.triangles) +
+                           " triangles, one that is drawn at most " + std::to_string(kMostTriangles));
   if (page_.size() + drawable.bytes() / sizeof(std::uint32_t) > kPageWords) flush_page();
   SceneModel::Slot& slot = model_.slots_.emplace_back();
   model_.triangles_ += drawable.triangles;
