@@ -5,6 +5,7 @@
 layout(location = 0) in vec3 view_position;
 layout(location = 1) in vec3 view_normal;
 layout(location = 2) in vec2 texture_position;
+layout(location = 3) in vec3 shape_position;
 layout(push_constant, scalar) uniform Params { SceneDrawParams params; };
 layout(set = 0, binding = 0) uniform sampler2D image;
 layout(location = 0) out vec4 shown;
@@ -24,5 +25,5 @@ void main() {
     shown = color;
     return;
   }
-  shown = vec4(color.rgb * shade(shaded_normal(view_position, view_normal)), color.a);
+  shown = vec4(color.rgb * shade(shaded_normal(shape_position, view_position, view_normal)), color.a);
 }

@@ -8,6 +8,7 @@ layout(push_constant, scalar) uniform Params { SceneDrawParams params; };
 layout(location = 0) out vec3 view_position;
 layout(location = 1) out vec3 view_normal;
 layout(location = 2) out vec2 texture_position;
+layout(location = 3) out vec3 shape_position;
 
 // Three numbers of 10 bits, 512 is 0.
 vec3 unpack_normal(uint word) {
@@ -29,7 +30,8 @@ void main() {
     for (uint column = 0; column < 3; ++column) linear[column][row] = params.view_from_mesh[4 * row + column];
     moved[row] = params.view_from_mesh[4 * row + 3];
   }
-  view_position = linear * position + moved;
+  shape_position = linear * position;
+  view_position = shape_position + moved;
   view_normal = turn_normal(linear, unpack_normal(packed_normal));
   texture_position = packed_texture_position * vec2(params.texture_position[0], params.texture_position[1]) +
                      vec2(params.texture_position[2], params.texture_position[3]);

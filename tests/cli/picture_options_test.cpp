@@ -91,11 +91,13 @@ TEST(PictureOptions, WrongOnesAreRefusedWithARemedy) {
   EXPECT_THAT(refusal({"--image", "a.png", "--emphasis", "all"}), HasSubstr("extremes"));
   EXPECT_THAT(refusal({"--image", "a.png", "--metric", "planar_groups", "--emphasis", "extremes"}),
               HasSubstr("another --metric"));
-  EXPECT_THAT(refusal({"--image", "a.png", "--size", "32x720"}), HasSubstr("at least 64 x 64"));
+  EXPECT_THAT(refusal({"--image", "a.png", "--size", "200x720"}), HasSubstr("at least 240 x 120"));
   EXPECT_THAT(refusal({"--image", "a.png", "--size", "wide"}), HasSubstr("--size"));
   EXPECT_THAT(refusal({"--image", "a.png", "--target", "1,2"}), HasSubstr("--target"));
   EXPECT_THAT(refusal({"--image-set", "set", "--metric", "distance"}),
               HasSubstr("--image-set shows everything"));
+  EXPECT_THAT(refusal({"--image", "set/aggregate.png", "--image-set", "./set/"}),
+              HasSubstr("choose another place"));
   EXPECT_THAT(refusal({"--image-set", ""}), HasSubstr("needs a folder"));
   const TemporaryFolder folder;
   const auto file = folder.write("file", "");

@@ -83,7 +83,7 @@ TEST_F(PicturesTest, TheSetHasEveryMetricTwice) {
   folder_.write("cube.obj", cube_obj());
   folder_.write("leg.obj", leg_obj());
   const ProgramResult result =
-      analyze({"cube.obj", "leg.obj", "--image-set", "set", "--size", "160x120", "--image", "one.png"});
+      analyze({"cube.obj", "leg.obj", "--image-set", "set", "--size", "240x160", "--image", "one.png"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder_.path() / "set"))
@@ -113,18 +113,47 @@ TEST_F(PicturesTest, NothingIsDrawnOfNothingAndTheTableStays) {
 }
 
 TEST_F(PicturesTest, BrokenTexturesAreAWarningOnly) {
-  folder_.write("cube.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd broken.png\n");
+  folder_.write("square.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd broken.png\n");
   folder_.write("broken.png", "this is no picture");
-  folder_.write("cube.obj", "mtllib cube.mtl\nusemtl paint\n" + cube_obj());
-  const ProgramResult result = analyze({"cube.obj", "--image", "cube.png"});
+  folder_.write(
+      "square.obj",
+      "mtllib square.mtl\nusemtl paint\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+  const ProgramResult result = analyze({"square.obj", "--image", "square.png"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_FALSE(drawn_pixels(picture("cube.png")).empty());
+  EXPECT_THAT(complaints(result), testing::Contains(HasSubstr("broken.png")));
+  EXPECT_FALSE(drawn_pixels(picture("square.png")).empty());
+}
+
+TEST_F(PicturesTest, AMeshFarAwayIsNamed) {
+  std::string text;
+  for (const char* x : {"0", "3", "6", "9e6"}) {
+    text += fmt::format("o at_{}\nv {} 0 0\nv {} 0 1\nv {} 1 0\nf -3 -2 -1\n", x, x, x, x);
+  }
+  folder_.write("far.obj", text);
+  const ProgramResult result = analyze({"far.obj", "--image", "far.png"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(complaints(result), ElementsAre(AllOf(HasSubstr("at_9e6"), HasSubstr("--target"))));
+  const ProgramResult chosen =
+      analyze({"far.obj", "--image", "far.png", "--eye", "12,3,8", "--target", "3,0,0"});
+  EXPECT_THAT(complaints(chosen), IsEmpty());
+  EXPECT_GT(drawn_pixels(picture("far.png")).size(), 300U);
+}
+
+TEST_F(PicturesTest, AnAssetWithoutMeshesTakesNoPictureAway) {
+  folder_.write("cube.obj", cube_obj());
+  folder_.write("empty.gltf",
+                R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"n"}]})");
+  const ProgramResult result =
+      analyze({"cube.obj", "empty.gltf", "--image", "both.png", "--export", "both.glb"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(drawn_pixels(picture("both.png")).empty());
+  EXPECT_TRUE(fs::exists(folder_.path() / "both.glb"));
 }
 
 TEST_F(PicturesTest, FilesThatCannotBeWrittenAreNamedAndOthersAreWritten) {
   folder_.write("cube.obj", cube_obj());
   fs::create_directories(folder_.path() / "set" / "distance.png");
-  const ProgramResult result = analyze({"cube.obj", "--image-set", "set", "--size", "64x64"});
+  const ProgramResult result = analyze({"cube.obj", "--image-set", "set", "--size", "240x120"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(complaints(result), ElementsAre(AllOf(HasSubstr("cannot write"), HasSubstr("distance.png"))));
   EXPECT_TRUE(fs::exists(folder_.path() / "set" / "own_colours.png"));

@@ -63,6 +63,18 @@ TEST(Camera, WithATargetTheFieldOfViewIsFixed) {
   EXPECT_NEAR(nearer->unit, 2 * up->unit, 1e-12);
 }
 
+TEST(Camera, TargetsAreDirections) {
+  const Vector3 eye = {3, 1.2, 1.5};
+  for (const double length : {1e-6, 1.0, 1e6}) {
+    const Camera camera = make_camera(kRoom, eye, Vector3{3 - 4 * length, 1.2, 1.5 - 3 * length}, 1);
+    const auto place = project(camera, 1, {3 - 4, 1.2, 1.5 - 3});
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->x, 0, 1e-6);
+    EXPECT_NEAR(place->y, 0, 1e-6);
+    EXPECT_NEAR(place->unit, 1 / (5 * camera.tangent), 1e-6);
+  }
+}
+
 TEST(Camera, UpAndDownAndNowhereAreDirectionsToo) {
   for (const double y : {10.0, -10.0}) {
     const Camera camera = make_camera(kRoom, Vector3{0, y, 0}, Vector3{0, 0, 0}, 1);
@@ -81,7 +93,7 @@ TEST(Camera, UpAndDownAndNowhereAreDirectionsToo) {
 TEST(Camera, TheViewIsRightHandedAndKeepsLengths) {
   const Camera camera = make_camera(kRoom, Vector3{3, 4, 5}, Vector3{-1, 0, 1}, 1);
   const std::array<double, 12> view = view_matrix(camera);
-  const double distance = std::hypot(4, 4, 4);
+  const double distance = std::hypot(camera.target[0] - 3, camera.target[1] - 4, camera.target[2] - 5);
   double product[3][3];
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < 3; ++b) {
@@ -94,7 +106,9 @@ TEST(Camera, TheViewIsRightHandedAndKeepsLengths) {
                              view[1] * (view[4] * view[10] - view[6] * view[8]) +
                              view[2] * (view[4] * view[9] - view[5] * view[8]);
   EXPECT_GT(determinant, 0);
-  EXPECT_NEAR(view[8] * -1 + view[9] * 0 + view[10] * 1 + view[11], -1, 1e-12)
+  EXPECT_NEAR(
+      view[8] * camera.target[0] + view[9] * camera.target[1] + view[10] * camera.target[2] + view[11], -1,
+      1e-12)
       << "the target is at distance 1";
 }
 

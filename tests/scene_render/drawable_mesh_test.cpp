@@ -15,7 +15,7 @@ namespace {
 
 using test_meshes::TestMesh;
 
-constexpr std::uint64_t kMostBytes = 57;  // per triangle
+constexpr std::uint64_t kMostBytes = 56;  // per triangle
 
 mesh::TriangleMesh as_mesh(const TestMesh& mesh) {
   mesh::TriangleMesh result;

@@ -163,6 +163,17 @@ TEST_F(SceneRendererTest, PlanarGroupsColorTriangles) {
   EXPECT_EQ(pixel(picture, 30, 40)[0], pixel(picture, 30, 40)[2]) << "unknown groups are grey";
 }
 
+TEST_F(SceneRendererTest, FarFromTheEyeTheLightIsTheSame) {
+  rectangles_.add(-4, -4, 4, 4, 0);
+  for (const double distance : {1e3, 1e6}) {
+    const Camera camera{.eye = {0, 0, distance}, .target = {0, 0, 0}, .tangent = 5 / distance};
+    const std::vector<Look> looks = {{.fill = Look::Fill::kColor, .color = kRed}};
+    const Picture picture = SceneRenderer(device(), 4).draw(model(), camera, looks, kSize, kSize);
+    for (std::uint32_t x = 20; x < 80; ++x)
+      ASSERT_THAT(pixel(picture, x, 50), IsNear(test::shaded(kRed, test::facing_shade()), 1)) << distance;
+  }
+}
+
 TEST_F(SceneRendererTest, InstancesShareTheirMesh) {
   rectangles_.add(-0.5, -0.5, 0.5, 0.5, 0);
   mesh::Scene& scene = rectangles_.scene();

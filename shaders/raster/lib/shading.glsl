@@ -1,8 +1,12 @@
 // shading.glsl — How a surface looks in the light of a lamp over the viewer's shoulder.
 
-// Of the triangle itself, in the view, towards the viewer.
-vec3 flat_normal(vec3 view_position) {
-  vec3 across = cross(dFdx(view_position), dFdy(view_position));
+// Of the triangle itself, in the view, towards the viewer. `shape_position` is the position in the view without
+// the mesh's own place there, which would leave no digits for differences far away.
+vec3 flat_normal(vec3 shape_position, vec3 view_position) {
+  vec3 right = dFdx(shape_position), down = dFdy(shape_position);
+  float unit = max(length(right), length(down));
+  if (unit == 0) return vec3(0, 0, 1);
+  vec3 across = cross(right / unit, down / unit);
   float size = length(across);
   vec3 normal = size > 0 ? across / size : vec3(0, 0, 1);
   return dot(normal, view_position) > 0 ? -normal : normal;
@@ -10,8 +14,8 @@ vec3 flat_normal(vec3 view_position) {
 
 // `mean_normal` is the mean of the normals around a corner: the shorter, the sharper the edges there, where the
 // triangle's own normal counts.
-vec3 shaded_normal(vec3 view_position, vec3 mean_normal) {
-  vec3 own = flat_normal(view_position);
+vec3 shaded_normal(vec3 shape_position, vec3 view_position, vec3 mean_normal) {
+  vec3 own = flat_normal(shape_position, view_position);
   float size = length(mean_normal);
   float smoothness = smoothstep(0.8, 0.92, size);
   if (smoothness == 0) return own;

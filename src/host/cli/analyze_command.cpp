@@ -16,6 +16,7 @@
 #include "cli/export_file.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
+#include "cli/mesh_files.h"
 #include "cli/picture_files.h"
 #include "cli/terminal.h"
 #include "report/report.h"
@@ -105,6 +106,7 @@ int analyze_command(std::span<const std::string> arguments) {
   }
   set_up_logging(request.log);
   watch_interrupts();
+  if (request.pictures.image_set) make_folder("image-set", *request.pictures.image_set);
   LazyDevice device(device_options(request.device));
   const Analyses analyses = analyze_assets(request, device);
   warn_if_mixed(analyses.assets, &analysis::AssetAnalysis::unit_scale, "their unit in metres");
@@ -114,8 +116,8 @@ int analyze_command(std::span<const std::string> arguments) {
   const report::SceneReport report = make_report(request, analyses.assets);
   warn_if_timings_are_mixed(report);
   bool written = write_outputs(request, report);
-  written = write_pictures(request, report, device) && written;
   written = write_export(request, report) && written;
+  written = write_pictures(request, report, device) && written;
   if (!device_was_used_well(device)) return kUnusable;
   return written && analyses.all_good ? kSuccess : kInputFailed;
 }

@@ -131,6 +131,12 @@ AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
   request.export_file = read_export(line);
   request.pictures = read_pictures(line, request.pipeline.metrics, request.ratings.relative);
   request.pictures.image_set = read_folder(line, "image-set");
+  const auto folder = [](const fs::path& path) { return (path / "").lexically_normal(); };
+  if (request.pictures.image && request.pictures.image_set &&
+      folder(request.pictures.image->parent_path()) == folder(*request.pictures.image_set))
+    throw UsageError(
+        "--image: the file lies in the folder of --image-set, which may write the same name; choose another "
+        "place");
   read_output(line, request);
   request.histograms = read_folder(line, "histograms");
   request.signals = read_folder(line, "signals");

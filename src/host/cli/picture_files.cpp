@@ -2,18 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "cli/interrupt.h"
-#include "cli/mesh_files.h"
 #include "cli/progress.h"
 #include "cli/scene_loader.h"
 #include "gpu/error.h"
 #include "pictures/compose.h"
+#include "pictures/far_away.h"
 #include "scene_render/scene_renderer.h"
 
 namespace scene_analyzer::cli {
@@ -71,6 +74,27 @@ std::string scene_name(const report::SceneReport& report) {
   return fmt::format("{} and {} more", first, report.assets.size() - 1);
 }
 
+// Whether `work` was done; if not, the log says what is lost and why. One picture's failure is not the
+// others'.
+bool attempt(const std::string& lost, Progress& progress, const std::function<void()>& work) {
+  const auto say = [&](const std::string& why) {
+    progress.aside([&] { log_error(fmt::format("{}: {}", lost, why)); });
+    return false;
+  };
+  try {
+    work();
+    return true;
+  } catch (const gpu::DeviceLost&) {
+    throw;
+  } catch (const gpu::OutOfMemory& error) {
+    return say(fmt::format("{}; try a smaller --size or fewer assets", error.what()));
+  } catch (const std::bad_alloc&) {
+    return say("this machine has too little free memory; try a smaller --size or fewer assets");
+  } catch (const std::runtime_error& error) {
+    return say(error.what());
+  }
+}
+
 class Studio {
  public:
   Studio(const AnalyzeRequest& request, const report::SceneReport& report, gpu::Device& device)
@@ -78,46 +102,80 @@ class Studio {
         report_(report),
         files_(wanted_files(request.pictures, request.ratings.metrics)),
         progress_(request.log != LogLevel::kQuiet, report.assets.size() + files_.size()),
-        renderer_(device, kSamples),
-        model_(load(device)) {}
+        device_(device) {}
 
   bool write_all() {
+    if (!attempt("no picture is drawn", progress_, [&] { load(); })) return false;
     for (std::size_t i = 0; i < files_.size(); ++i) {
       check_interrupt();
       const std::size_t item = report_.assets.size() + i;
       progress_.start_asset(item, files_[i].path.filename().string());
       progress_.update(item, 0, "picture");
-      try {
-        report::write_file(files_[i].path, draw(files_[i].content));
-      } catch (const InputError& error) {
-        progress_.aside([&] { log_error(error.what()); });
-        good_ = false;
-      }
+      good_ = attempt(fmt::format("{} is not drawn", files_[i].path.string()), progress_,
+                      [&] { report::write_file(files_[i].path, draw(files_[i].content)); }) &&
+              good_;
       progress_.finish_asset(item);
     }
     return good_;
   }
 
  private:
-  scene_render::SceneModel load(gpu::Device& device) {
+  void load() {
+    renderer_.emplace(device_, kSamples);
     const bool groups = std::ranges::any_of(
         files_, [](const PictureFile& file) { return file.content.subject == Subject::kPlanarGroups; });
-    SceneLoader loader(device, request_.pipeline.import_limits);
+    SceneLoader loader(device_, request_.pipeline.import_limits);
     for (std::size_t i = 0; i < report_.assets.size(); ++i) {
       progress_.start_asset(i, fs::path(report_.assets[i].asset).filename().string());
-      loader.add(report_.assets[i], groups && renderer_.can_draw_groups(),
+      loader.add(report_.assets[i], groups && renderer_->can_draw_groups(),
                  [&](double fraction, const std::string& step) {
                    check_interrupt();
                    progress_.update(i, fraction, step);
                  });
+      progress_.aside([&] {
+        for (const std::string& warning : loader.take_warnings()) log_warning(warning);
+      });
       progress_.finish_asset(i);
     }
-    if (groups && !renderer_.can_draw_groups())
+    if (groups && !renderer_->can_draw_groups())
       progress_.aside([] {
         log_warning(
             "the device cannot draw planar groups (geometryShader is missing): all meshes are grey there");
       });
-    return loader.finish();
+    model_ = loader.finish();
+    frame();
+  }
+
+  // What the pictures show: the scene as it was analysed, and meshes that were beyond a limit then.
+  void frame() {
+    bounds_ = report_.rating.bounds;
+    for (std::size_t i = 0; i < report_.rating.meshes.size(); ++i) {
+      const ratings::MeshRating& mesh = report_.rating.meshes[i];
+      const analysis::AssetAnalysis& asset = report_.assets[mesh.asset];
+      const auto box = model_->box(i);
+      if (!box || asset.geometries[asset.instances[mesh.instance].geometry].not_analysed.empty()) continue;
+      if (!bounds_) bounds_ = box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        bounds_->min[axis] = std::min(bounds_->min[axis], box->min[axis]);
+        bounds_->max[axis] = std::max(bounds_->max[axis], box->max[axis]);
+      }
+    }
+    if (!bounds_) throw InputError("the scene has no triangle with a place in space");
+    if (request_.pictures.target) return;
+    if (const auto far = pictures::find_far_away(*model_))
+      progress_.aside([&] {
+        log_warning(
+            fmt::format("{} lies so far from the other meshes that most of these are smaller than a pixel; "
+                        "--eye and --target "
+                        "choose what is seen, for example --target {:.6g},{:.6g},{:.6g}",
+                        name_of(far->mesh), far->others[0], far->others[1], far->others[2]));
+      });
+  }
+
+  std::string name_of(std::size_t row) const {
+    const ratings::MeshRating& mesh = report_.rating.meshes[row];
+    const analysis::InstanceAnalysis& instance = report_.assets[mesh.asset].instances[mesh.instance];
+    return fmt::format("mesh {} ({})", row, instance.node.empty() ? instance.mesh : instance.node);
   }
 
   // The aggregate depends on the mode; single ratings are there in both.
@@ -138,15 +196,23 @@ class Studio {
     const std::uint32_t legend_rows = pictures::legend_height(pictures.width, pictures.height);
     const std::uint32_t rows = pictures.height - legend_rows;
     const scene_render::Camera camera = scene_render::make_camera(
-        *rating.bounds, request_.ratings.eye, pictures.target, static_cast<double>(pictures.width) / rows);
-    renderer_.set_group_colors(content.map);
+        *bounds_, request_.ratings.eye, pictures.target, static_cast<double>(pictures.width) / rows);
+    renderer_->set_group_colors(content.map);
     const scene_render::Picture view =
-        renderer_.draw(model_, camera, pictures::looks(content, rating), pictures.width, rows);
+        renderer_->draw(*model_, camera, pictures::looks(content, rating), pictures.width, rows);
     const auto marks =
         pictures::mark_small_extremes(content, rating, report_.assets, camera, pictures.width, rows,
                                       pictures::mark_radius(pictures.width, pictures.height));
-    return pictures::compose(view, marks, pictures::make_legend(content, rating, scene_name(report_)),
-                             pictures.height);
+    pictures::Legend legend = pictures::make_legend(content, rating, scene_name(report_));
+    if (content.subject == Subject::kPlanarGroups) legend.without_value = has_unknown_groups();
+    return pictures::compose(view, marks, legend, pictures.height);
+  }
+
+  bool has_unknown_groups() const {
+    if (!renderer_->can_draw_groups()) return true;
+    for (std::size_t i = 0; i < model_->size(); ++i)
+      if (model_->box(i) && !model_->instance(i).groups) return true;
+    return false;
   }
 
   const AnalyzeRequest& request_;
@@ -154,8 +220,10 @@ class Studio {
   const std::vector<PictureFile> files_;
   bool good_ = true;
   Progress progress_;
-  scene_render::SceneRenderer renderer_;
-  scene_render::SceneModel model_;
+  gpu::Device& device_;
+  std::optional<scene_render::SceneRenderer> renderer_;
+  std::optional<scene_render::SceneModel> model_;
+  std::optional<analysis::Bounds> bounds_;
   std::optional<ratings::SceneRating> other_mode_;
 };
 
@@ -163,19 +231,7 @@ class Studio {
 
 bool write_pictures(const AnalyzeRequest& request, const report::SceneReport& report, LazyDevice& device) {
   if (!request.pictures.wanted() || report.assets.empty()) return true;
-  if (request.pictures.image_set) make_folder("image-set", *request.pictures.image_set);
-  if (!report.rating.bounds) {
-    log_error("no picture is drawn: the scene has no triangle with a place in space");
-    return false;
-  }
-  try {
-    return Studio(request, report, device.get()).write_all();
-  } catch (const InputError& error) {
-    log_error(fmt::format("no picture is drawn: {}", error.what()));
-  } catch (const gpu::OutOfMemory& error) {
-    log_error(fmt::format("no picture is drawn: {}; try a smaller --size or fewer assets", error.what()));
-  }
-  return false;
+  return Studio(request, report, device.get()).write_all();
 }
 
 }  // namespace scene_analyzer::cli

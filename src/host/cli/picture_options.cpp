@@ -17,7 +17,7 @@ namespace {
 
 using pictures::Subject;
 
-constexpr std::uint32_t kLeastSide = 64;  // below it no legend can be read
+constexpr std::uint32_t kLeastWidth = 240, kLeastHeight = 120;  // below it no legend can be read
 constexpr std::array<std::string_view, 4> kMapNames = {"thesis", "viridis", "cividis", "coolwarm"};
 
 [[noreturn]] void refuse_name(const std::string& option, const std::string& text,
@@ -124,8 +124,8 @@ PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metric
   request.content.relative = relative;
   if (const auto size = line.value("size"))
     std::tie(request.width, request.height) = parse_pixels("size", *size);
-  if (request.width < kLeastSide || request.height < kLeastSide)
-    throw UsageError(fmt::format("--size: pictures have at least {} x {} pixels", kLeastSide, kLeastSide));
+  if (request.width < kLeastWidth || request.height < kLeastHeight)
+    throw UsageError(fmt::format("--size: pictures have at least {} x {} pixels", kLeastWidth, kLeastHeight));
   if (const auto target = line.value("target")) request.target = parse_vector3("target", *target);
   return request;
 }

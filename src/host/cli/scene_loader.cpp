@@ -1,5 +1,9 @@
 #include "cli/scene_loader.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "pipeline/import_again.h"
 
 namespace scene_analyzer::cli {
@@ -7,6 +11,10 @@ void SceneLoader::add(const analysis::AssetAnalysis& analysis, bool groups,
                       const pipeline::Progress& progress) {
   progress(0, "import for pictures");
   const mesh::Scene scene = pipeline::import_again(analysis, limits_, import::Textures::kDecode);
+  // What the analysis has said is known.
+  for (const std::string& warning : scene.warnings)
+    if (!std::ranges::count(analysis.warnings, warning))
+      warnings_.push_back(fmt::format("{}: {}", analysis.asset, warning));
   progress(0.5, "upload for pictures");
   if (groups)
     add_with_groups(scene, analysis, progress);
@@ -18,7 +26,8 @@ void SceneLoader::add_with_groups(const mesh::Scene& scene, const analysis::Asse
                                   const pipeline::Progress& progress) {
   analysis::AssetAnalysis again;
   std::vector<scene_render::GroupShades> shades;
-  pipeline::Measurer(device_).measure(
+  if (!measurer_) measurer_.emplace(device_);
+  measurer_->measure(
       {.scene = scene,
        .analysis = again,
        .parameters = analysis.parameters,

@@ -1,7 +1,9 @@
 // scene_loader.h — The assets of a report as one scene on the device.
 #pragma once
 
-#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/analysis.h"
@@ -24,6 +26,9 @@ class SceneLoader {
 
   scene_render::SceneModel finish() { return builder_.finish(); }
 
+  // What was said about textures since the last call.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+
  private:
   void add_with_groups(const mesh::Scene& scene, const analysis::AssetAnalysis& analysis,
                        const pipeline::Progress& progress);
@@ -31,6 +36,8 @@ class SceneLoader {
   gpu::Device& device_;
   const import::Limits& limits_;
   scene_render::SceneModelBuilder builder_;
+  std::optional<pipeline::Measurer> measurer_;  // of planar groups
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace scene_analyzer::cli

@@ -34,14 +34,14 @@ void check(const std::string& where, const RasterPipeline::Impl& pipeline, std::
 }
 
 // The fragment shader's texture and buffers.
-void record_descriptors(const vk::raii::CommandBuffer& commands, const RasterPipeline::Impl& pipeline,
-                        const Recorder::Draw& draw) {
+void record_descriptors(const Device::Native& draw_device, const vk::raii::CommandBuffer& commands,
+                        const RasterPipeline::Impl& pipeline, const Recorder::Draw& draw) {
   vk::DescriptorImageInfo image;
   std::vector<vk::DescriptorBufferInfo> buffers;
   std::vector<vk::WriteDescriptorSet> writes;
   if (draw.texture != nullptr) {
     const Texture::Impl& texture = draw.texture->impl();
-    image = {.sampler = *texture.sampler,
+    image = {.sampler = *draw_device.sampler,
              .imageView = *texture.image.view,
              .imageLayout = Layout::eShaderReadOnlyOptimal};
     writes.push_back({.dstBinding = 0,
@@ -181,7 +181,7 @@ void Recorder::draw_bytes(const RasterPipeline& pipeline, const void* params, st
     impl_->clipped = draw.clip.has_value();
   }
   record_vertex_inputs(commands, raster, draw);
-  record_descriptors(commands, raster, draw);
+  record_descriptors(impl_->device.native(), commands, raster, draw);
   if (draw.indices != nullptr)
     commands.bindIndexBuffer(*draw.indices->impl().buffer, 0, vk::IndexType::eUint32);
   translated("recording a draw", [&] {

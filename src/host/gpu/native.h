@@ -1,6 +1,6 @@
 // native.h — The one marked door to Vulkan: the handles behind Device, Buffer and Kernel.
 //
-// Included by gpu/*.cpp and by the three rooms that must talk Vulkan themselves (FFT, raster, window), and
+// Included by gpu/*.cpp and by spectrum/, which must talk Vulkan itself (FFT), and
 // never by a header of another room: vulkan_raii.hpp costs four seconds per translation unit.
 #pragma once
 
@@ -59,6 +59,7 @@ struct Device::Native {
   vk::raii::Fence fence{nullptr};               // one is enough: submissions are synchronous
   PipelineCache pipeline_cache;
   std::optional<std::filesystem::path> cache_folder;  // where files that save time are kept; absent: nowhere
+  vk::raii::Sampler sampler{nullptr};                 // of all textures, made with the first one
   std::unique_ptr<Buffer::Impl> staging{};            // host-visible, made at the first copy that needs it
 
   // The only way to the queue: submits the ended commands, waits in slices with a message when it takes long,
@@ -118,7 +119,6 @@ struct RenderTarget::Impl {
 struct Texture::Impl {
   std::string name;
   Image image;
-  vk::raii::Sampler sampler{nullptr};
 };
 
 struct RasterPipeline::Impl {

@@ -46,10 +46,12 @@ void make_objects(Device::Native& native, std::uint32_t width, std::uint32_t hei
                   .mipLevels = levels,
                   .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst},
                  vk::ImageAspectFlagBits::eColor);
-  texture.sampler = vk::raii::Sampler(native.device, {.magFilter = vk::Filter::eLinear,
-                                                      .minFilter = vk::Filter::eLinear,
-                                                      .mipmapMode = vk::SamplerMipmapMode::eLinear,
-                                                      .maxLod = VK_LOD_CLAMP_NONE});
+  // Devices allow few samplers, and all textures want the same.
+  if (*native.sampler == vk::Sampler{})
+    native.sampler = vk::raii::Sampler(native.device, {.magFilter = vk::Filter::eLinear,
+                                                       .minFilter = vk::Filter::eLinear,
+                                                       .mipmapMode = vk::SamplerMipmapMode::eLinear,
+                                                       .maxLod = VK_LOD_CLAMP_NONE});
 }
 
 void upload_level(Device::Native& native, const Texture::Impl& texture, const Level& level,

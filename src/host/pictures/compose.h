@@ -18,7 +18,8 @@ std::uint32_t legend_height(std::uint32_t width, std::uint32_t height);
 double mark_radius(std::uint32_t width, std::uint32_t height);
 
 // The bytes of a PNG file as wide as the view, the legend below it; deterministic with one installation of
-// fonts. Throws std::bad_alloc.
+// fonts. Throws std::bad_alloc, and
+// std::runtime_error with Cairo's reason. Memory: twice the pixels, 4 bytes each.
 std::string compose(const scene_render::Picture& view, std::span<const Mark> marks, const Legend& legend,
                     std::uint32_t height);
 

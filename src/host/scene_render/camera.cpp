@@ -71,15 +71,28 @@ void show_all(const analysis::Bounds& scene, double aspect, Camera& camera) {
   camera.middle = {(least[0] + most[0]) / 2, (least[1] + most[1]) / 2};
 }
 
+// In the direction of `wanted`, as far away as the scene is large or distant: a target may be meant as a
+// direction, and distances in the view are in units of this one.
+Vector3 usual_target(const analysis::Bounds& scene, const Vector3& eye, const Vector3& wanted) {
+  const double size = length(difference(scene.max, scene.min)), away = length(difference(middle(scene), eye));
+  double distance = std::max(size, away);
+  if (!(distance > 0)) distance = 1;  // one point is all there is to see
+  const Vector3 towards = difference(wanted, eye);
+  const double given = length(towards);
+  Vector3 direction = {0, 0, -1};  // where the target is the eye
+  if (given > 1e-9 * distance) direction = scaled(towards, 1 / given);
+  Vector3 target = eye;
+  for (std::size_t axis = 0; axis < 3; ++axis) target[axis] += distance * direction[axis];
+  return target;
+}
+
 }  // namespace
 
 Camera make_camera(const analysis::Bounds& scene, const std::optional<Vector3>& eye,
                    const std::optional<Vector3>& target, double aspect) {
   Camera camera;
   camera.eye = eye.value_or(ratings::default_eye(scene));
-  camera.target = target.value_or(middle(scene));
-  // One point is all there is to see, or the eye is in the middle of it.
-  if (camera.eye == camera.target) camera.target[2] = camera.eye[2] - std::max(1.0, std::abs(camera.eye[2]));
+  camera.target = usual_target(scene, camera.eye, target.value_or(middle(scene)));
   const Vector3 direction = difference(camera.target, camera.eye);
   // Straight up or down there is no up in the picture.
   if (std::abs(direction[1]) > 0.999999 * length(direction))

@@ -20,7 +20,7 @@ struct Camera {
 // What the picture of a scene is taken with. Without `eye`: from ratings::default_eye(), the whole scene in
 // the middle of the picture. With `eye` alone: the same, or 60 degrees towards the middle of the scene where
 // that does not show all of it. With `target`: a field of view of 45 degrees. `aspect` is width / height.
-// Where eye and target are one point, the camera looks along -z.
+// Where eye and target are one point, the camera looks along -z; else the target is a direction only.
 Camera make_camera(const analysis::Bounds& scene, const std::optional<mesh::Vector3>& eye,
                    const std::optional<mesh::Vector3>& target, double aspect);
 

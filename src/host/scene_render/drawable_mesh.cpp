@@ -59,7 +59,8 @@ void find_frame(const TriangleMesh& mesh, const std::vector<std::uint32_t>& corn
   double radius = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     drawable.center[axis] = (low[axis] + high[axis]) / 2;
-    radius = std::max(radius, (high[axis] - low[axis]) / 2);
+    drawable.half[axis] = (high[axis] - low[axis]) / 2;
+    radius = std::max(radius, drawable.half[axis]);
   }
   if (radius > 0) drawable.radius = radius;
 }
@@ -210,7 +211,8 @@ DrawableMesh make_drawable(const TriangleMesh& mesh, bool textured) {
   drawable.positions.resize(mesh.positions.size());
   for (std::size_t i = 0; i < drawable.positions.size(); ++i) {
     const double framed = (mesh.positions[i] - drawable.center[i % 3]) / drawable.radius;
-    drawable.positions[i] = std::isfinite(framed) ? static_cast<float>(framed) : 0;
+    // What no drawn triangle uses may lie anywhere.
+    drawable.positions[i] = std::abs(framed) <= 2 ? static_cast<float>(framed) : 0;
   }
   if (drawable.bytes() > kMostIndexedBytes * drawable.triangles) join_vertices(drawable, place_of);
   if (drawable.bytes() <= kMostIndexedBytes * drawable.triangles) return drawable;

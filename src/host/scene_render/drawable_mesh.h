@@ -19,11 +19,11 @@ struct DrawableMesh {
   std::vector<std::uint32_t> indices;  // empty: three vertices per triangle, one after the other
   std::uint64_t triangles =
       0;  // as many as the mesh has; those of positions that are not finite have no area
-  mesh::Vector3 center{};
-  double radius = 1;  // > 0
+  mesh::Vector3 center{}, half{};  // of the box around what is drawn
+  double radius = 1;               // > 0
   std::array<double, 2> texture_low{}, texture_range{};
 
-  // At most 57 per triangle.
+  // At most 56 per triangle.
   std::uint64_t bytes() const {
     return sizeof(std::uint32_t) *
            (positions.size() + normals.size() + texture_positions.size() + indices.size());

@@ -13,7 +13,7 @@ namespace scene_analyzer::scene_render {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t kMostTriangles = kNone / 3;  // corners are counted in 32 bits
+constexpr std::uint64_t kMostTriangles = kNone / 14;  // of 14 words each: places of words have 32 bits
 // Devices allow some thousand allocations, so small meshes share one; a larger mesh has one of its own.
 constexpr std::size_t kPageWords = std::size_t{16} << 20;
 
@@ -39,6 +39,24 @@ GroupShades shade_groups(std::span<const std::uint32_t> sizes) {
 bool SceneModel::has_own_color(std::size_t index) const {
   const Instance& instance = instances_[index];
   return instance.own_color || instance.texture;
+}
+
+std::optional<analysis::Bounds> SceneModel::box(std::size_t index) const {
+  const Slot& slot = slots_[instances_[index].mesh];
+  if (slot.corners == 0) return std::nullopt;
+  const mesh::Matrix4& world = instances_[index].world;
+  analysis::Bounds box;
+  for (std::size_t row = 0; row < 3; ++row) {
+    double middle = world[4 * row + 3], half = 0;
+    for (std::size_t column = 0; column < 3; ++column) {
+      middle += world[4 * row + column] * slot.center[column];
+      half += std::abs(world[4 * row + column]) * slot.half[column];
+    }
+    if (!std::isfinite(middle) || !std::isfinite(half)) return std::nullopt;
+    box.min[row] = middle - half;
+    box.max[row] = middle + half;
+  }
+  return box;
 }
 
 void SceneModelBuilder::add(const mesh::Scene& scene, std::span<const GroupShades* const> groups) {
@@ -92,6 +110,7 @@ std::uint32_t SceneModelBuilder::add_mesh(const mesh::TriangleMesh& mesh, bool t
   model_.triangles_ += drawable.triangles;
   slot.page = static_cast<std::uint32_t>(model_.pages_.size());
   slot.center = drawable.center;
+  slot.half = drawable.half;
   slot.radius = drawable.radius;
   slot.texture_low = drawable.texture_low;
   slot.texture_range = drawable.texture_range;

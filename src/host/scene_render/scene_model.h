@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/analysis.h"
 #include "gpu/device.h"
 #include "gpu/recorder.h"
 #include "mesh/scene.h"
@@ -33,9 +34,12 @@ class SceneModel {
   std::size_t size() const { return instances_.size(); }
   const Instance& instance(std::size_t index) const { return instances_[index]; }
   bool has_own_color(std::size_t index) const;
+  // World, around the corners of its mesh's box: as small as possible where it is not turned. Absent where
+  // nothing is drawn, or not at a finite place.
+  std::optional<analysis::Bounds> box(std::size_t index) const;
 
-  // Memory on the device for vertices, indices and groups: at most 60 per triangle of a mesh; textures are
-  // not counted.
+  // Memory on the device for vertices, indices and groups: at most 56 per triangle of a mesh, and one
+  // per triangle of every GroupShades; textures are not counted.
   std::uint64_t bytes() const { return bytes_; }
   std::uint64_t triangles() const { return triangles_; }  // of all meshes, each once
 
@@ -50,7 +54,7 @@ class SceneModel {
     std::optional<std::uint64_t> normals, texture_positions;
     std::optional<std::uint32_t> first_index;
     std::uint32_t corners = 0;
-    mesh::Vector3 center{};
+    mesh::Vector3 center{}, half{};  // of its box, as in the file
     double radius = 1;
     std::array<double, 2> texture_low{}, texture_range{};
   };

@@ -19,7 +19,7 @@ constexpr gpu::VertexFormat kInputs[] = {gpu::VertexFormat::kFloat3, gpu::Vertex
                                          gpu::VertexFormat::kUnorm16x2};
 constexpr Rgb kNoColorGrey = {0.8, 0.8, 0.8}, kEdgeInk = {0, 0, 0};
 // In distances from eye to target. Depths lose nothing by it, see scene_mesh.vert.
-constexpr double kNearest = 1e-5;
+constexpr double kNearest = 1e-7;
 // The normal 0, and the texture's first corner.
 constexpr std::array<std::uint32_t, 1> kNoAttribute = {512u | 512u << 10 | 512u << 20};
 
