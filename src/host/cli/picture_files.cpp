@@ -164,11 +164,13 @@ class Studio {
     if (request_.pictures.target) return;
     if (const auto far = pictures::find_far_away(*model_))
       progress_.aside([&] {
+        const auto text = [](const mesh::Vector3& point) {
+          return fmt::format("{:.6g},{:.6g},{:.6g}", point[0], point[1], point[2]);
+        };
         log_warning(
             fmt::format("{} lies so far from the other meshes that most of these are smaller than a pixel; "
-                        "--eye and --target "
-                        "choose what is seen, for example --target {:.6g},{:.6g},{:.6g}",
-                        name_of(far->mesh), far->others[0], far->others[1], far->others[2]));
+                        "choose what is seen, for example with --eye {} --target {}",
+                        name_of(far->mesh), text(far->eye), text(far->others)));
       });
   }
 

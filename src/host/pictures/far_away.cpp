@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "ratings/ratings.h"
+
 namespace scene_analyzer::pictures {
 namespace {
 
@@ -43,7 +45,14 @@ std::optional<FarAway> find_far_away(const scene_render::SceneModel& model) {
     reaches.push_back(std::sqrt(squares));
   }
   const auto farthest = std::ranges::max_element(reaches);
-  if (!(*farthest > kTooLarge * median(reaches))) return std::nullopt;
+  const double usual = median(reaches);
+  if (!(*farthest > kTooLarge * usual)) return std::nullopt;
+  analysis::Bounds around;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    around.min[axis] = found.others[axis] - usual;
+    around.max[axis] = found.others[axis] + usual;
+  }
+  found.eye = ratings::default_eye(around);
   found.mesh = meshes[static_cast<std::size_t>(farthest - reaches.begin())];
   return found;
 }

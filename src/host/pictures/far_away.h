@@ -10,6 +10,7 @@ namespace scene_analyzer::pictures {
 struct FarAway {
   std::size_t mesh = 0;    // the farthest
   mesh::Vector3 others{};  // the middle of the others, by coordinate the median
+  mesh::Vector3 eye{};     // from where these can be seen: the direction of ratings::default_eye()
 };
 // Of a scene more than 1000 times as large as half of its meshes and the distances of these from their
 // middle. Cost: linear.
