@@ -6,7 +6,11 @@
 INTERFACE_BEGIN(cooccurrence)
 
 INTERFACE_CONST uint kClassBlock = 512;  // sorted areas per thread when classes are formed
-INTERFACE_CONST uint kBins = 64;         // per axis of the binned histogram
+// Attributes on edges with more than two triangles are whole numbers of 1 / kAttributeSteps. A batch has
+// fewer than 2^31 half-edges: sums of so many multiples of 2^-22 up to 1, and of multiples of 2^-44 up to
+// 2^-22, are exact in a double.
+INTERFACE_CONST double kAttributeSteps = 4194304.0;
+INTERFACE_CONST uint kBins = 64;  // per axis of the binned histogram
 
 // Key: mesh, then exponent, then the leading bits of the mantissa of the area; all ones for degenerate
 // triangles.

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <functional>
 
 #include "analysis_file/codec.h"
@@ -13,6 +14,10 @@ namespace scene_analyzer::analysis_file {
 namespace {
 
 using testing::HasSubstr;
+
+v1::Defect& defect(v1::Analysis& message, int which) {
+  return *message.mutable_geometries(0)->mutable_defects()->mutable_found(which);
+}
 
 class Damaged : public FolderTest {
  protected:
@@ -55,6 +60,35 @@ TEST_F(Damaged, EveryFlippedByteIsNoticed) {
     }
   }
   EXPECT_EQ(reason_for(whole), "") << "the undamaged file is still good";
+}
+
+// All 255 other values of every byte, without the file system.
+TEST_F(Damaged, EveryValueOfEveryByteIsNoticed) {
+  ASSERT_TRUE(std::holds_alternative<std::string_view>(unseal(whole)));
+  std::string bytes = whole;
+  std::size_t changes = 0;
+  for (char& byte : bytes) {
+    const char right = byte;
+    for (int mask = 1; mask < 256; ++mask, ++changes) {
+      byte = static_cast<char>(right ^ mask);
+      const auto unsealed = unseal(bytes);
+      ASSERT_TRUE(std::holds_alternative<Unusable>(unsealed))
+          << "byte " << &byte - bytes.data() << " mask " << mask;
+    }
+    byte = right;
+  }
+  std::printf("%zu changes of a file of %zu bytes, all noticed\n", changes, whole.size());
+}
+
+TEST_F(Damaged, ProtobufsOwnWordsDoNotReachUsers) {
+  const std::string payload = encode(full_analysis(), version());
+  testing::internal::CaptureStderr();
+  for (std::size_t i = 0; i < payload.size(); ++i) {
+    std::string bytes = payload;
+    bytes[i] = '\xFF';
+    decode(bytes);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(Damaged, EveryTruncationIsNoticed) {
@@ -158,6 +192,33 @@ TEST_F(Damaged, ContradictionsUnderARightChecksumAreNamed) {
          m.mutable_geometries(1)->mutable_signal()->set_start_triangle(7);
        },
        "start triangle"},
+      {[](auto& m) { defect(m, 0).set_kind(static_cast<v1::Defect::Kind>(12)); }, "unknown kind"},
+      {[](auto& m) { defect(m, 0).set_kind(v1::Defect::ZERO_AREA); }, "in no order"},
+      {[](auto& m) { *m.mutable_geometries(0)->mutable_defects()->add_found() = defect(m, 10); },
+       "in no order"},
+      {[](auto& m) { defect(m, 8).set_count(0); }, "was not found"},
+      {[](auto& m) { defect(m, 8).clear_places(); }, "places of a defect than"},
+      {[](auto& m) { defect(m, 8).add_places(2); }, "places of a defect than"},
+      {[](auto& m) { defect(m, 2).add_places(9); }, "places of a defect than"},
+      {[](auto& m) { defect(m, 8).set_places(1, 0); }, "places of a defect in no order"},
+      {[](auto& m) { defect(m, 10).set_count(2); }, "of a whole mesh"},
+      {[](auto& m) { defect(m, 10).add_places(0); }, "of a whole mesh"},
+      {[](auto& m) { defect(m, 0).set_count(3); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 1).set_count(2); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 2).set_count(5'000'000'001); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 3).set_count(12); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 4).set_count(15); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 6).set_count(11); }, "contradict the other counts"},
+      {[](auto& m) { defect(m, 10).set_kind(v1::Defect::ZERO_AREA); }, "contradict the other counts"},
+      {[](auto& m) {
+         m.mutable_geometries(1)->set_source_triangles(7);
+         m.mutable_geometries(1)->set_triangles(7);
+         v1::Defect& winding = *m.mutable_geometries(1)->mutable_defects()->add_found();
+         winding.set_kind(v1::Defect::INCONSISTENT_WINDING);
+         winding.set_count(1);
+         winding.add_places(7);
+       },
+       "a triangle that does not exist"},
       {[](auto& m) {
          m.add_metrics("fourier_transform");
          m.mutable_parameters()->clear_start_searches();

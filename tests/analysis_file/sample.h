@@ -51,6 +51,7 @@ inline analysis::GeometryAnalysis full_geometry() {
   analysis::GeometryAnalysis g;
   g.mesh = 7;
   g.linear = {1, 2, 3, 4, 5, 6, 7, 8, -0.0};
+  g.shape_hash = {1, UINT64_MAX};
   g.source_triangles = 5'000'000'003;
   g.degenerate_triangles = 3;
   g.triangles = 5'000'000'000;
@@ -67,6 +68,18 @@ inline analysis::GeometryAnalysis full_geometry() {
   g.cooccurrence_contrast = std::nextafter(1.0, 0.0);
   g.fourier_transform = 0.519230769;
   g.signal = {4'999'999'988, 4'294'967'295, 0.1 + 0.7, 5e-324, 5'000'000'001};
+  using analysis::Defect;
+  g.defects.emplace().found = {{Defect::kDegenerateByIndex, 2, {0, 4'294'967'295}},
+                               {Defect::kDegenerateByShape, 1, {7}},
+                               {Defect::kDuplicateTriangles, 5'000'000'000, {1, 2, 3, 4, 5, 6, 7, 8}},
+                               {Defect::kNonManifoldEdges, 13, {9}},
+                               {Defect::kBoundaryEdges, 14, {3, 5}},
+                               {Defect::kInconsistentWinding, 1, {4}},
+                               {Defect::kIsolatedTriangles, 12, {4'294'967'294}},
+                               {Defect::kUnreferencedVertices, 1, {4'294'967'295}},
+                               {Defect::kNonFiniteVertices, 2, {0, 1}},
+                               {Defect::kMergeableVertices, 3, {2}},
+                               {Defect::kFarFromOrigin, 1, {}}};
   return g;
 }
 
@@ -110,6 +123,8 @@ inline analysis::AssetAnalysis full_analysis() {
   zeros.polygons_per_planar_group = zeros.planar_group_variation = 0.0;
   zeros.cooccurrence_contrast = zeros.fourier_transform = -0.0;
   zeros.signal.emplace();
+  zeros.shape_hash = {0, 0};
+  zeros.defects.emplace();  // none, which is not absent
   analysis::GeometryAnalysis refused;
   refused.source_triangles = 9;
   refused.not_analysed = "needs 3 GiB, the device has 2 GiB";
@@ -149,6 +164,7 @@ void expect_same_bits(const Numbers& a, const Numbers& b, const char* what) {
 inline void expect_same(const analysis::GeometryAnalysis& a, const analysis::GeometryAnalysis& b) {
   EXPECT_EQ(a.mesh, b.mesh);
   expect_same_bits(a.linear, b.linear, "linear");
+  EXPECT_EQ(a.shape_hash, b.shape_hash);
   EXPECT_EQ(a.source_triangles, b.source_triangles);
   EXPECT_EQ(a.degenerate_triangles, b.degenerate_triangles);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -165,6 +181,7 @@ inline void expect_same(const analysis::GeometryAnalysis& a, const analysis::Geo
   EXPECT_EQ(a.cooccurrence_contrast, b.cooccurrence_contrast);
   EXPECT_EQ(a.fourier_transform, b.fourier_transform);
   EXPECT_EQ(a.signal, b.signal);
+  EXPECT_EQ(a.defects, b.defects);
   EXPECT_EQ(a.not_analysed, b.not_analysed);
 }
 

@@ -34,6 +34,7 @@ TEST(AnalyzeOptions, DefaultsAreThoseOfTheFaces) {
   EXPECT_FALSE(request.pipeline.cache_folder);
   EXPECT_FALSE(request.ratings.relative);
   EXPECT_FALSE(request.ratings.eye);
+  EXPECT_FALSE(request.defects);
   EXPECT_FALSE(request.json);
   EXPECT_FALSE(request.csv);
   EXPECT_FALSE(request.histograms);
@@ -53,6 +54,7 @@ TEST(AnalyzeOptions, EveryOptionArrives) {
                                                          "16",
                                                          "--start-searches",
                                                          "7",
+                                                         "--defects",
                                                          "--signals",
                                                          (folder.path() / "new").string(),
                                                          "--weld-tolerance",
@@ -87,6 +89,7 @@ TEST(AnalyzeOptions, EveryOptionArrives) {
   EXPECT_EQ(request.json, "-");
   EXPECT_FALSE(request.table());
   EXPECT_EQ(request.signals, folder.path() / "new");
+  EXPECT_TRUE(request.defects);
   EXPECT_EQ(request.device, "llvm");
   EXPECT_EQ(request.pipeline.cache_folder, folder.path());
   EXPECT_EQ(request.log, LogLevel::kVerbose);
@@ -175,6 +178,23 @@ TEST(AnalyzeOptions, HelpNamesEveryOptionMetricAndExitCode) {
     EXPECT_THAT(help, HasSubstr(option));
   EXPECT_THAT(help, AllOf(HasSubstr("default 20000"), HasSubstr("gap"))) << "what a mark in the table means";
   for (const auto key : analysis::kMetricKeys) EXPECT_THAT(help, HasSubstr(std::string(key)));
+}
+
+TEST(AnalyzeOptions, LimitsOfTheImport) {
+  const auto limits = parse_analyze(Arguments{"a.glb"}).pipeline.import_limits;
+  EXPECT_EQ(limits.memory_bytes, 0U);
+  EXPECT_EQ(limits.seconds, 120);
+  EXPECT_EQ(limits.triangles, 0U);
+  const auto given = parse_analyze(Arguments{"a.glb", "--import-memory", "1.5G", "--import-timeout", "0.5",
+                                             "--max-triangles", "1000000"})
+                         .pipeline.import_limits;
+  EXPECT_EQ(given.memory_bytes, std::uint64_t{3} << 29);
+  EXPECT_EQ(given.seconds, 0.5);
+  EXPECT_EQ(given.triangles, 1000000U);
+  EXPECT_THAT(refusal({"a.glb", "--import-memory", "63M"}), HasSubstr("less than 64M"));
+  EXPECT_THAT(refusal({"a.glb", "--import-memory", "much"}), HasSubstr("--import-memory: 'much'"));
+  EXPECT_THAT(refusal({"a.glb", "--import-timeout", "0"}), HasSubstr("--import-timeout: '0'"));
+  EXPECT_THAT(refusal({"a.glb", "--max-triangles", "0"}), HasSubstr("--max-triangles: '0'"));
 }
 
 }  // namespace

@@ -126,6 +126,34 @@ TEST_F(BadInputTest, AnAssetWithoutAnyMeshHasARowToo) {
   EXPECT_EQ(nlohmann::json::parse(result.out)["meshes"].size(), 1U);
 }
 
+TEST_F(BadInputTest, TooManyTrianglesAreRefusedAlsoWhereAnAnalysisFileIsThere) {
+  folder_.write("cube.obj", cube_obj());
+  EXPECT_EQ(analyze({"cube.obj", "--max-triangles", "12"}).exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder_.path() / "cube.obj.analysis"));
+  const ProgramResult result = analyze({"cube.obj", "--max-triangles", "11"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(
+      lines_with(result.err, "error: "),
+      ElementsAre(HasSubstr("cube.obj: holds 12 triangles, more than the limit of 11 (--max-triangles)")));
+}
+
+TEST_F(BadInputTest, TheTimeLimitOfTheImportIsNamed) {
+  folder_.write("cube.obj", cube_obj());
+  const ProgramResult result = analyze({"cube.obj", "--no-cache", "--import-timeout", "0.001"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(lines_with(result.err, "error: "),
+              ElementsAre(HasSubstr("longer than the limit of 0.001 s (--import-timeout)")));
+}
+
+TEST_F(BadInputTest, WhatTheImportTookIsSaidOnRequest) {
+  folder_.write("cube.obj", cube_obj());
+  const ProgramResult result = analyze({"cube.obj", "--no-cache", "--verbose"});
+  EXPECT_THAT(result.err,
+              testing::ContainsRegex("cube.obj: imported in [0-9.]+ s; its arrays take [0-9.]+ MiB, the "
+                                     "import worker's peak was [1-9][0-9.]+ MiB"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("peak memory of this process [1-9][0-9.]+ MiB"));
+}
+
 TEST_F(BadInputTest, UnwritableOutputsAreExitCode3) {
   folder_.write("good.obj", cube_obj());
   const ProgramResult result = analyze({"good.obj", "--json", "/proc/out.json", "--csv", "out.csv"});

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -41,9 +42,7 @@ std::string read_all(int descriptor) {
   return text;
 }
 
-int wait_for(pid_t child) {
-  int status = 0;
-  if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
+int exit_code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -58,31 +57,64 @@ std::vector<std::string> without_timing(std::vector<std::string> arguments) {
 
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& given, const ProgramOptions& options) {
+struct RunningProgram::Capture {
+  TemporaryFolder folder;
+  std::filesystem::path out = folder.path() / "out", err = folder.path() / "err";
+};
+
+RunningProgram::RunningProgram(const std::vector<std::string>& given, const ProgramOptions& options)
+    : capture_(std::make_unique<Capture>()) {
   const std::vector<std::string> arguments = without_timing(given);
-  const TemporaryFolder captured;
-  const auto out = captured.path() / "out", err = captured.path() / "err";
   std::filesystem::create_directories(SCENE_ANALYZER_TEST_CACHE);
-  ProgramResult result;
-  int terminal = -1;
   winsize size{};
   size.ws_col = 80;
   size.ws_row = 25;
-  const pid_t child = options.terminal ? forkpty(&terminal, nullptr, nullptr, &size) : fork();
-  if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) {
-    if (!options.terminal) redirect(out, STDOUT_FILENO);
-    redirect(err, STDERR_FILENO);
-    become_program(arguments, options);
+  child_ = options.terminal ? forkpty(&terminal_, nullptr, nullptr, &size) : fork();
+  if (child_ < 0) throw std::runtime_error("fork failed");
+  if (child_ > 0) return;
+  if (!options.terminal) redirect(capture_->out, STDOUT_FILENO);
+  redirect(capture_->err, STDERR_FILENO);
+  become_program(arguments, options);
+}
+
+RunningProgram::~RunningProgram() {
+  if (!has_ended()) {
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
   }
-  if (options.terminal) result.out = read_all(terminal);
-  result.exit_code = wait_for(child);
-  if (options.terminal)
-    close(terminal);
-  else
-    result.out = TemporaryFolder::read(out);
-  result.err = TemporaryFolder::read(err);
+  if (terminal_ >= 0) ::close(terminal_);
+}
+
+bool RunningProgram::has_ended() {
+  int status = 0;
+  if (exit_code_ < 0 && ::waitpid(child_, &status, WNOHANG) == child_) exit_code_ = exit_code_of(status);
+  return exit_code_ >= 0;
+}
+
+void RunningProgram::send(int signal) const {
+  if (exit_code_ < 0) ::kill(child_, signal);
+}
+
+std::string RunningProgram::err() const {
+  return TemporaryFolder::read(capture_->err);
+}
+
+ProgramResult RunningProgram::wait() {
+  ProgramResult result;
+  if (terminal_ >= 0) result.out = read_all(terminal_);
+  int status = 0;
+  if (exit_code_ < 0) {
+    if (::waitpid(child_, &status, 0) != child_) throw std::runtime_error("waitpid failed");
+    exit_code_ = exit_code_of(status);
+  }
+  result.exit_code = exit_code_;
+  if (terminal_ < 0) result.out = TemporaryFolder::read(capture_->out);
+  result.err = err();
   return result;
+}
+
+ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options) {
+  return RunningProgram(arguments, options).wait();
 }
 
 std::vector<std::string> lines_with(const std::string& text, const std::string& start) {

@@ -1,8 +1,11 @@
 // run_program.h — Runs the built `scene-analyzer` as a user does.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,28 @@ inline constexpr const char* kUntimedMetrics =
 
 // Caches (pipeline cache, the driver's shader cache) lie in the build folder, never in the user's home.
 ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
+
+// The same, as long as it runs: to be sent signals. One that is left running is killed.
+class RunningProgram {
+ public:
+  explicit RunningProgram(const std::vector<std::string>& arguments, const ProgramOptions& options = {});
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  pid_t id() const { return child_; }
+  bool has_ended();
+  void send(int signal) const;  // nothing happens once it has ended
+  std::string err() const;      // what it has written so far
+  ProgramResult wait();
+
+ private:
+  struct Capture;
+  std::unique_ptr<Capture> capture_;
+  int terminal_ = -1;
+  pid_t child_ = -1;
+  int exit_code_ = -1;  // -1: not waited for
+};
 
 // Lines of `text` that begin with `start`.
 std::vector<std::string> lines_with(const std::string& text, const std::string& start);

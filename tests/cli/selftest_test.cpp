@@ -33,6 +33,7 @@ TEST(Selftest, EveryExpectationCanFail) {
     for (auto* count : {&geometry.planar_groups, &geometry.components, &geometry.non_manifold_edges,
                         &geometry.boundary_edges})
       *count = count->value() + 1;
+    geometry.defects->found.push_back({analysis::Defect::kZeroArea, 1, {}});
     for (auto* rating : {&geometry.polygons_per_planar_group, &geometry.planar_group_variation,
                          &geometry.cooccurrence_contrast})
       *rating = rating->value() + 2e-5;

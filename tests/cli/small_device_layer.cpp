@@ -3,12 +3,11 @@
 // million triangles to exceed. The program is the one users run and knows nothing of it.
 //
 // Vulkan's loader puts the layer in where its environment variables say so. One instance at a time.
-#include <vulkan/vk_layer.h>
-
 #include <algorithm>
 #include <cstring>
 
 #include "cli/small_device.h"
+#include "support/vulkan_layer.h"
 
 namespace {
 
@@ -31,17 +30,6 @@ VKAPI_ATTR void VKAPI_CALL get_properties2(VkPhysicalDevice device, VkPhysicalDe
   shrink(properties->properties);
 }
 
-// Where the loader says what comes after this layer.
-VkLayerInstanceCreateInfo* link_of(const VkInstanceCreateInfo* info) {
-  for (const void* entry = info->pNext; entry != nullptr;) {
-    auto* link = const_cast<VkLayerInstanceCreateInfo*>(static_cast<const VkLayerInstanceCreateInfo*>(entry));
-    if (link->sType == VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO)
-      return link;
-    entry = link->pNext;
-  }
-  return nullptr;
-}
-
 template <typename Function>
 Function next(VkInstance instance, const char* name) {
   return reinterpret_cast<Function>(next_get_instance_proc_addr(instance, name));
@@ -49,7 +37,7 @@ Function next(VkInstance instance, const char* name) {
 
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                const VkAllocationCallbacks* allocator, VkInstance* instance) {
-  VkLayerInstanceCreateInfo* link = link_of(info);
+  VkLayerInstanceCreateInfo* link = scene_analyzer::layer_link(info);
   if (link == nullptr) return VK_ERROR_INITIALIZATION_FAILED;
   next_get_instance_proc_addr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;  // for the next layer, which reads the same entry
@@ -73,9 +61,5 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance insta
 
 extern "C" VK_LAYER_EXPORT VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* answer) {
-  answer->loaderLayerInterfaceVersion = 2;
-  answer->pfnGetInstanceProcAddr = get_instance_proc_addr;
-  answer->pfnGetDeviceProcAddr = nullptr;  // nothing of a device's own is changed
-  answer->pfnGetPhysicalDeviceProcAddr = nullptr;
-  return VK_SUCCESS;
+  return scene_analyzer::answer_loader(answer, get_instance_proc_addr);
 }

@@ -1,6 +1,8 @@
 // Area classes and contrast on the device against the plain twin.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cooccurrence/area_classes.h"
 #include "cooccurrence/class_limit.h"
 #include "cooccurrence/contrast.h"
@@ -32,7 +34,9 @@ class CooccurrenceTest : public test::GpuTest {
     recorder.submit_and_wait();
     const double sum = found.geometry.chunks.results(device(), partial).front();
     const double count = static_cast<double>(twin.contrast.neighboured);
-    EXPECT_NEAR(count > 0 ? sum / count : 0, twin.contrast.rating, 1e-9);
+    // On edges with more than two triangles attributes are rounded to 2^-22, on both sides of a difference.
+    const double tolerance = found.adjacency.shared.count > 0 ? std::ldexp(1, -21) : 1e-9;
+    EXPECT_NEAR(count > 0 ? sum / count : 0, twin.contrast.rating, tolerance);
   }
 
   void compare_attributes(const reference::Evaluation& twin, const AreaClasses& classes) {

@@ -63,6 +63,18 @@ TEST(ImportFiles, WrongContentsAreNamed) {
   EXPECT_THAT(refusal(folder.write("noise", "\x01\x02\x03\x04")), HasSubstr("no known format"));
 }
 
+// Found by fuzzing: Assimp quotes what it cannot read, to the end of the file.
+TEST(ImportFiles, ReasonsAreShortWhateverIsInTheFile) {
+  const TempFolder folder;
+  const std::filesystem::path file =
+      folder.write("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex x" + std::string(5000, 'y') +
+                                "\nendsolid a\n");
+  const std::string message = refusal(file);
+  EXPECT_THAT(message, HasSubstr("Cannot parse string"));
+  EXPECT_LT(message.size(), file.string().size() + 400);
+  EXPECT_TRUE(message.ends_with("...")) << message;
+}
+
 TEST(ImportFiles, ContentsDecideWithoutAnExtension) {
   const TempFolder folder;
   EXPECT_EQ(import_asset(folder.write("plain", kTriangle)).meshes.at(0).triangle_count(), 1u);

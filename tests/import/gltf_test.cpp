@@ -157,7 +157,7 @@ TEST(ImportGltf, SparseValuesReplaceWhatTheyStandFor) {
 TEST(ImportGltf, AnAccessorWithoutDataIsRefused) {
   QuadGltf quad;
   quad.root["accessors"][0].erase("bufferView");
-  EXPECT_THAT(refusal_of(quad), HasSubstr("accessor 0 has no data"));
+  EXPECT_THAT(refusal_of(quad), HasSubstr("accessor 0 has no buffer view"));
 }
 
 TEST(ImportGltf, NodesThatAreNoTree) {

@@ -77,5 +77,17 @@ TEST(DecodeImage, EveryTruncationEnds) {
     }
 }
 
+// Found by fuzzing: the decoder makes millions of pixels out of the end of such a file.
+TEST(TextureDecoder, RunLengthsThatCannotReachTheSizeAreRefused) {
+  std::string file = plain_tga(1024, 1024, {1, 2, 3, 4});
+  const auto decode = [](const std::string& bytes) {
+    return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  };
+  EXPECT_EQ(decode(file).width, 1024u);
+  EXPECT_THROW(decode(file.substr(0, file.size() - 1)), NotDecodable);
+  EXPECT_THROW(decode(tga_header(8192, 8192, 10)), NotDecodable);
+  EXPECT_THROW(decode(tga_header(8192, 8192, 10).substr(0, 17)), NotDecodable);
+}
+
 }  // namespace
 }  // namespace scene_analyzer::import

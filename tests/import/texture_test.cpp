@@ -203,9 +203,8 @@ TEST(ImportTexture, NoneFromOutsideTheFolder) {
       "in/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n"));
   ASSERT_EQ(scene.textures.size(), 2u);
   for (const mesh::Texture& texture : scene.textures) EXPECT_TRUE(texture.pixels.empty()) << texture.path;
-  EXPECT_TRUE(mentions(scene.warnings, "\"../outside.png\" leads out of the asset's folder"));
-  EXPECT_TRUE(
-      mentions(scene.warnings, "\"link.png\" cannot be decoded: it cannot be read: Permission denied"));
+  EXPECT_TRUE(mentions(scene.warnings, "2 references lead out of the asset's folder"));
+  EXPECT_TRUE(mentions(scene.warnings, "\"../outside.png\", \"link.png\""));
 }
 
 TEST(ImportTexture, TexturesThatTakeTooLongAreLeftOut) {
@@ -218,7 +217,7 @@ TEST(ImportTexture, TexturesThatTakeTooLongAreLeftOut) {
   EXPECT_TRUE(scene.textures.at(0).pixels.empty());
   EXPECT_THAT(scene.warnings,
               ElementsAre("no texture was decoded, as with textures importing it takes longer than the limit "
-                          "of 2 s"));
+                          "of 2 s (--import-timeout)"));
 }
 
 TEST(ImportTexture, AllTogetherHaveALimit) {

@@ -3,10 +3,13 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <random>
 #include <stop_token>
 #include <thread>
 
 #include "import/temp_folder.h"
+#include "import/wire_builder.h"
+#include "mutate.h"
 
 namespace scene_analyzer::import {
 namespace {
@@ -86,6 +89,30 @@ TEST(Worker, TheMemoryLimitIsToldApartFromACrash) {
   EXPECT_EQ(refusal(asset), "");
 }
 #endif
+
+// What Landlock and seccomp bring is said by missing_isolation() where the kernel lacks it.
+TEST(Worker, ConfinedItReadsItsFolderAndDoesNothingElse) {
+  const std::vector<std::string> missing = missing_isolation();
+  if (!missing.empty()) GTEST_SKIP() << missing.front();
+  EXPECT_THAT(refusal_when("probe"), testing::EndsWith("a.obj: probe:"));
+}
+
+TEST(Worker, AnyAnswerIsSurvived) {
+  const TempFolder folder;
+  const Misbehaviour misbehaviour("bytes");
+  const std::vector<std::byte> scene = small_scene();
+  const std::string whole(reinterpret_cast<const char*>(scene.data()), scene.size());
+  EXPECT_EQ(refusal(folder.write("a.obj", whole)), "") << "the double answers what it is given";
+  std::mt19937_64 random(11);
+  std::size_t scenes = 0, refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::string message = refusal(folder.write("a.obj", fuzz::mutate(whole, random) + " "));
+    ++(message.empty() ? scenes : refused);
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  }
+  EXPECT_GT(scenes, 10u);
+  EXPECT_GT(refused, 10u);
+}
 
 TEST(Worker, NothingIsLeftBehind) {
   const TempFolder folder;

@@ -10,6 +10,7 @@
 #include "hash_half_edges.spv.h"
 #include "interface/adjacency.h"
 #include "interface/cooccurrence.h"
+#include "interface/defects.h"
 #include "interface/geometry.h"
 #include "interface/mesh.h"
 #include "interface/planar_groups.h"
@@ -50,11 +51,15 @@ TEST_F(InterfaceTest, BuffersHoldTheSameStructsOnBothSides) {
   gpu::Array<interface::spectrum::ShortSignal> short_signals(device(), "short signals", 2);
   gpu::Array<interface::spectrum::ChirpSignal> chirp_signals(device(), "chirp signals", 2);
   gpu::Array<interface::spectrum::Segment> segments(device(), "segments", 2);
+  gpu::Array<interface::defects::TriangleDefects> triangle_defects(device(), "triangle defects", 2);
+  gpu::Array<interface::defects::TriangleMasks> triangle_masks(device(), "triangle masks", 2);
+  gpu::Array<interface::defects::VertexDefects> vertex_defects(device(), "vertex defects", 2);
+  gpu::Array<interface::defects::VertexMasks> vertex_masks(device(), "vertex masks", 2);
   const gpu::Kernel kernel = device().make_kernel("number_members", number_members_spv);
   gpu::Recorder recorder(device());
   recorder.run(kernel, 1, gpu::NoParams{},
                {records, chunks, geometry, instances, topology, planar, ranges, classes, parts, short_signals,
-                chirp_signals, segments});
+                chirp_signals, segments, triangle_defects, triangle_masks, vertex_defects, vertex_masks});
   recorder.submit_and_wait();
 
   check_both(device(), records, [](const auto& e, unsigned n) {
@@ -108,6 +113,17 @@ TEST_F(InterfaceTest, BuffersHoldTheSameStructsOnBothSides) {
   check_both(device(), segments, [](const auto& e, unsigned n) {
     EXPECT_EQ((std::array{e.signal, e.first, e.count}), (std::array{n + 1, n + 2, n + 3}));
   });
+  const auto count_on = [](const auto& numbers, unsigned first) {
+    for (unsigned k = 0; k < numbers.size(); ++k) EXPECT_EQ(numbers[k], first + k);
+  };
+  check_both(device(), triangle_defects, [&](const auto& e, unsigned n) { count_on(e.counts, n + 1); });
+  check_both(device(), triangle_masks, [&](const auto& e, unsigned n) { count_on(e.words, n + 1); });
+  check_both(device(), vertex_defects, [&](const auto& e, unsigned n) {
+    count_on(e.counts, n + 1);
+    count_on(e.low, n + 4);
+    count_on(e.high, n + 7);
+  });
+  check_both(device(), vertex_masks, [&](const auto& e, unsigned n) { count_on(e.words, n + 1); });
 }
 
 struct Member {

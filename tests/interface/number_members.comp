@@ -4,6 +4,7 @@
 #include "interface/mesh.h"
 #include "interface/geometry.h"
 #include "interface/adjacency.h"
+#include "interface/defects.h"
 #include "interface/planar_groups.h"
 #include "interface/cooccurrence.h"
 #include "interface/spectrum.h"
@@ -20,6 +21,10 @@ layout(binding = 8, scalar) writeonly buffer I { SpectrumPart spectrum_parts[2];
 layout(binding = 9, scalar) writeonly buffer J { ShortSignal short_signals[2]; };
 layout(binding = 10, scalar) writeonly buffer K { ChirpSignal chirp_signals[2]; };
 layout(binding = 11, scalar) writeonly buffer L { Segment segments[2]; };
+layout(binding = 12, scalar) writeonly buffer M { TriangleDefects triangle_defects[2]; };
+layout(binding = 13, scalar) writeonly buffer N { TriangleMasks triangle_masks[2]; };
+layout(binding = 14, scalar) writeonly buffer O { VertexDefects vertex_defects[2]; };
+layout(binding = 15, scalar) writeonly buffer P { VertexMasks vertex_masks[2]; };
 
 void main() {
   for (uint i = 0; i < 2; ++i) {
@@ -52,5 +57,13 @@ void main() {
     short_signals[i] = ShortSignal(n + 1, n + 2, n + 3, n + 4);
     chirp_signals[i] = ChirpSignal(double(n + 1), n + 2, n + 3, n + 4, n + 5, n + 6, n + 7);
     segments[i] = Segment(n + 1, n + 2, n + 3);
+    for (uint k = 0; k < kTriangleKinds; ++k) triangle_defects[i].counts[k] = n + 1 + k;
+    for (uint k = 0; k < kMaskWords * kTriangleKinds; ++k) triangle_masks[i].words[k] = n + 1 + k;
+    for (uint k = 0; k < 3; ++k) {
+      vertex_defects[i].counts[k] = n + 1 + k;
+      vertex_defects[i].low[k] = n + 4 + k;
+      vertex_defects[i].high[k] = n + 7 + k;
+    }
+    for (uint k = 0; k < kMaskWords * kVertexKinds; ++k) vertex_masks[i].words[k] = n + 1 + k;
   }
 }

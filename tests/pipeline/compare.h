@@ -27,6 +27,19 @@ inline void expect_near(const std::optional<double>& found, const std::optional<
   }
 }
 
+// One line per kind that was found.
+inline std::string describe(const std::optional<analysis::Defects>& defects, bool with_places) {
+  if (!defects) return "not looked for";
+  std::string text;
+  for (const analysis::FoundDefect& one : defects->found) {
+    text += std::string(analysis::kDefectKeys[index_of(one.defect)]) + ' ' + std::to_string(one.count);
+    for (const std::uint32_t place : one.places)
+      if (with_places) text += ' ' + std::to_string(place);
+    text += '\n';
+  }
+  return text;
+}
+
 inline void expect_same_measures(const analysis::GeometryAnalysis& found,
                                  const analysis::GeometryAnalysis& expected) {
   EXPECT_EQ(found.source_triangles, expected.source_triangles);
@@ -37,6 +50,7 @@ inline void expect_same_measures(const analysis::GeometryAnalysis& found,
   expect_near(found.polygons_per_planar_group, expected.polygons_per_planar_group, 1e-5);
   expect_near(found.planar_group_variation, expected.planar_group_variation, 1e-5);
   expect_near(found.cooccurrence_contrast, expected.cooccurrence_contrast, 1e-5);
+  EXPECT_EQ(describe(found.defects, false), describe(expected.defects, false));
   if (found.source_triangles == 0) return;  // in no batch: nothing was counted
   EXPECT_EQ(found.planar_groups, expected.planar_groups);
   EXPECT_EQ(found.largest_planar_group, expected.largest_planar_group);
@@ -108,8 +122,10 @@ inline std::size_t expect_agrees_with_twin(const mesh::Scene& scene, const analy
     const bool first = !twin;
     if (first) {
       twin = reference::evaluate_stages(mesh.positions, mesh.indices, placement.linear, parameters);
-      expect_same_measures(found.geometries[instance.geometry],
-                           reference::summarize(*twin, placement.linear));
+      const auto expected = reference::summarize(*twin, placement.linear);
+      expect_same_measures(found.geometries[instance.geometry], expected);
+      EXPECT_EQ(describe(found.geometries[instance.geometry].defects, true),
+                describe(expected.defects, true));
     }
     // The box is that of local coordinates under the whole matrix.
     const reference::Geometry geometry{mesh.positions, mesh.indices, twin->representative, placement.linear};

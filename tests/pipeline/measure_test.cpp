@@ -100,6 +100,7 @@ TEST_F(MeasureTest, RerunsGiveTheSameBits) {
     EXPECT_EQ(one.geometries[i].surface_area, other.geometries[i].surface_area);
     EXPECT_EQ(one.geometries[i].planar_group_variation, other.geometries[i].planar_group_variation);
     EXPECT_EQ(one.geometries[i].cooccurrence_contrast, other.geometries[i].cooccurrence_contrast);
+    EXPECT_EQ(one.geometries[i].defects, other.geometries[i].defects);
   }
 }
 

@@ -244,6 +244,22 @@ TEST_F(PipelineTimingTest, StoredTimesServeWhateverElseIsMeasured) {
   EXPECT_EQ(again.analysis->timings[0].times, times);
 }
 
+TEST_F(PipelineTimingTest, AFileFromBeforeThereWereDefectsServesWithItsTimesOnly) {
+  AssetAnalysis old = analyze(strip()).analysis.value();
+  const auto defects = old.geometries.at(0).defects;
+  ASSERT_TRUE(defects);
+  old.geometries[0].defects.reset();
+  analysis_file::store(folder_.path() / "strip.obj.analysis", old);
+  EXPECT_FALSE(analyze_from_file(strip()).analysis) << "the file lacks them";
+  const Outcome again = analyze(strip());
+  ASSERT_TRUE(again.analysis) << again.error;
+  EXPECT_FALSE(again.from_file);
+  EXPECT_THAT(again.messages, IsEmpty()) << "nothing is wrong with the file";
+  EXPECT_EQ(again.analysis->geometries.at(0).defects, defects);
+  EXPECT_EQ(again.analysis->timings.at(0).times, old.timings.at(0).times);
+  EXPECT_TRUE(analyze_from_file(strip()).from_file);
+}
+
 TEST_F(PipelineTimingTest, WhereThereIsNothingToDrawTheFileServes) {
   const fs::path flat = folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\no line\nf 1 2 3\n");
   ASSERT_TRUE(analyze(flat).analysis);

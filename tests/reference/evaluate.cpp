@@ -14,6 +14,7 @@ Evaluation evaluate_stages(std::span<const float> positions, std::span<const std
   result.groups = planar_groups(geometry, result.triangles, result.adjacency, parameters.alpha_degrees);
   result.classes = area_classes(result.triangles.area, result.triangles.kept, parameters.dim);
   result.contrast = cooccurrence_contrast(result.adjacency, result.classes);
+  result.defects = find_defects(geometry, result.triangles, result.adjacency);
   return result;
 }
 
@@ -31,6 +32,7 @@ analysis::GeometryAnalysis summarize(const Evaluation& evaluation, const mesh::M
   result.non_manifold_edges = evaluation.adjacency.non_manifold_edges;
   result.boundary_edges = evaluation.adjacency.boundary_edges;
   result.area_classes = evaluation.classes.value.size();
+  if (result.source_triangles > 0) result.defects = evaluation.defects;
   if (result.triangles == 0) return result;
   const auto n = static_cast<double>(result.triangles);
   result.polygons_per_planar_group =

@@ -9,6 +9,7 @@
 #include "reference/adjacency.h"
 #include "reference/area_classes.h"
 #include "reference/cooccurrence.h"
+#include "reference/defects.h"
 #include "reference/planar_groups.h"
 #include "reference/triangles.h"
 #include "reference/weld.h"
@@ -23,6 +24,7 @@ struct Evaluation {
   PlanarGroups groups;
   AreaClasses classes;
   Contrast contrast;
+  analysis::Defects defects;
 };
 
 // `positions`: x, y, z per vertex; `indices`: three per triangle, each below the vertex count.

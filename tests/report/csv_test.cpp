@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "report/fixture.h"
@@ -71,19 +72,31 @@ TEST(Csv, HasAColumnForEveryField) {
   const Table rows = read_csv(text);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].size(),
-            20 + 4 + 5 + 10 + 2 * 7 + 5u);  // 20 plain with signal, bounds and rendering time as one each, 4,
-                                            // 5 and 10 more for them, 2 x 7 ratings, 5
+            20 + 4 + 5 + 10 + 12 + 2 * 7 + 5u);  // 20 plain with signal, bounds and rendering time as one
+                                                 // each, 4, 5 and 10 more for them, 12 defects, 2 x 7
+                                                 // ratings, 5
   EXPECT_THAT(
       text, ::testing::StartsWith("index,asset,node,mesh,source_triangles,degenerate_triangles,triangles,"));
-  EXPECT_THAT(text, ::testing::HasSubstr(
-                        ",area_classes,signal.length,signal.start_triangle,signal.mean_distance,signal.gap,"
-                        "signal.searches,rendering_time.device,rendering_time.device_type,"
-                        "rendering_time.mean_ns,rendering_time.confidence_ns,"));
+  EXPECT_THAT(text, ::testing::HasSubstr(",area_classes,defects.counts.degenerate_by_index,"));
+  EXPECT_THAT(text, ::testing::HasSubstr(",defects.counts.far_from_origin,signal.length,signal.start_"
+                                         "triangle,signal.mean_distance,signal.gap,"
+                                         "signal.searches,rendering_time.device,rendering_time.device_type,"
+                                         "rendering_time.mean_ns,rendering_time.confidence_ns,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.min.x,bounds.min.y,"));
   EXPECT_THAT(text, ::testing::HasSubstr(",bounds.max.z,distance,ratings.polygons_per_planar_group,"));
   EXPECT_THAT(text, ::testing::HasSubstr(
                         ",relative_ratings.rendering_time,aggregate,color,not_analysed,no_fourier_transform,"
                         "no_rendering_time\n"));
+}
+
+TEST(Csv, CountsDefectsAndLeavesTheirPlacesOut) {
+  const Fixture fixture = two_assets();
+  const Table rows = read_csv(csv(fixture.report()));
+  const auto column = std::ranges::find(rows[0], "defects.counts.inconsistent_winding") - rows[0].begin();
+  ASSERT_LT(static_cast<std::size_t>(column), rows[0].size());
+  EXPECT_EQ(rows[1].at(static_cast<std::size_t>(column)), "12");
+  EXPECT_EQ(rows[3].at(static_cast<std::size_t>(column)), "") << "a mesh without triangles";
+  for (const std::string& name : rows[0]) EXPECT_THAT(name, ::testing::Not(::testing::HasSubstr("places")));
 }
 
 TEST(Csv, QuotesCommasQuotesAndLineBreaks) {

@@ -26,6 +26,11 @@ analysis::GeometryAnalysis leg() {
   geometry.planar_group_variation = ratings::planar_group_variation(40, 240);
   geometry.cooccurrence_contrast = 1.0 / 3;
   geometry.fourier_transform = 0.09168;
+  geometry.defects.emplace().found = {
+      {analysis::Defect::kDegenerateByShape, 1, {40}},
+      {analysis::Defect::kInconsistentWinding, 12, {0, 1, 4, 5, 8, 9, 20, 33}},
+      {analysis::Defect::kMergeableVertices, 3, {21, 22, 23}},
+      {analysis::Defect::kFarFromOrigin, 1, {}}};
   geometry.signal = {.length = 40, .start_triangle = 17, .mean_distance = 0.35, .gap = 0, .searches = 23};
   return geometry;
 }

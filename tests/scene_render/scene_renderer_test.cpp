@@ -2,6 +2,7 @@
 #include "scene_render/scene_renderer.h"
 
 #include "drawn_scene.h"
+#include "scene_render/scene_model_builder.h"
 #include "support/gpu_test.h"
 
 namespace scene_analyzer::scene_render {

@@ -23,6 +23,11 @@ class SmallDisk {
   SmallDisk(const SmallDisk&) = delete;
   SmallDisk& operator=(const SmallDisk&) = delete;
 
+  // From now on; false: the system does not do it.
+  bool make_read_only() const {
+    return ::mount(nullptr, folder_.c_str(), nullptr, MS_REMOUNT | MS_RDONLY, nullptr) == 0;
+  }
+
   bool mounted() const { return mounted_; }  // false: GTEST_SKIP() << SmallDisk::kWhyNot
 
  private:

@@ -73,6 +73,18 @@ void expect_sound(const Navigation& navigation) {
   EXPECT_NEAR(place->y, 0, 1e-5);
 }
 
+TEST(Navigation, AGrowingSceneLeavesTheViewWhereItIs) {
+  Navigation navigation;
+  navigation.show_all({.min = {0, 0, 0}, .max = {1, 1, 1}}, 1);
+  navigation.orbit(0.1, 0.1);
+  const mesh::Vector3 eye = navigation.eye(), target = navigation.target();
+  navigation.extend({.min = {-100, -100, -100}, .max = {100, 100, 100}});
+  EXPECT_EQ(navigation.eye(), eye);
+  EXPECT_EQ(navigation.target(), target);
+  navigation.scale(1e-9);  // as far away as the larger scene allows
+  EXPECT_GT(navigation.distance(), 1e5);
+}
+
 TEST(Navigation, ShowsTheWholeScene) {
   const Bounds flat = {.min = {-50, 0, -1}, .max = {50, 0, 1}}, tall = {.min = {0, 0, 0}, .max = {1, 90, 1}};
   for (const double aspect : {0.1, 0.4, 1.0, 1.9, 7.0})

@@ -131,12 +131,5 @@ TEST(RatingsFile, RatingsAreTheReportsTable) {
   EXPECT_EQ(write_ratings(report, folder.path()).filename(), "scene-ratings-2.csv");
 }
 
-TEST(RatingsFile, PicturesAreNumberedLikeThat) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(write_picture("png", folder.path()), folder.path() / "scene-picture-1.png");
-  EXPECT_EQ(write_picture("png 2", folder.path()), folder.path() / "scene-picture-2.png");
-  EXPECT_EQ(TemporaryFolder::read(folder.path() / "scene-picture-2.png"), "png 2");
-}
-
 }  // namespace
 }  // namespace scene_analyzer::viewer

@@ -23,6 +23,18 @@ ratings::SceneRating rate(const ReviewState& state) {
   return ratings::rate({&asset, 1}, rating_options(state, {0, 0, 20}));
 }
 
+TEST(ReviewState, MetricsThatComeLaterAreOnAndOthersStay) {
+  using analysis::Metric;
+  const auto both = [] {
+    return analysis::MetricSet().set(index_of(Metric::kDistance)).set(index_of(Metric::kRenderingTime));
+  };
+  ReviewState state = initial_state(analysis::MetricSet().set(index_of(Metric::kDistance)));
+  toggle(state, Metric::kDistance);
+  extend(state, both());
+  EXPECT_EQ(state.computed, both());
+  EXPECT_EQ(state.active, analysis::MetricSet().set(index_of(Metric::kRenderingTime)));
+}
+
 TEST(ReviewState, AtFirstAllIsOnThatWasComputed) {
   MetricSet computed = MetricSet().set();
   computed.reset(index_of(Metric::kRenderingTime));

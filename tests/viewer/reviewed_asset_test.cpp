@@ -6,6 +6,7 @@
 
 #include "gpu/error.h"
 #include "import/gltf_builder.h"
+#include "scene_render/scene_model_builder.h"
 #include "support/gpu_test.h"
 #include "support/temporary_folder.h"
 

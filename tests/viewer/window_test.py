@@ -6,99 +6,16 @@
 Every key has to change what is printed (F12), what is drawn (F9) or which files there are. Needs Xvfb and xdotool.
 """
 
-import glob
 import os
 import subprocess
 import sys
 import tempfile
 import time
 
+from window_driver import Display, Viewer, check, wait_until
+
 KEYS_THAT_PRINT = ["F1", "F2", "F3", "F4", "F5", "F6", "F10", "F11", "e", "x", "c"]
 KEYS_THAT_MOVE = ["Left", "Right", "Up", "Down", "semicolon", "period", "w", "a", "s", "d", "plus", "minus"]
-UNTIMED = ("polygons_per_planar_group,planar_group_variation,relative_density,distance,cooccurrence_contrast,"
-           "fourier_transform")
-
-
-def wait_until(condition, what, seconds=60):
-    deadline = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > deadline:
-            sys.exit(f"FAILED: {what} did not happen within {seconds} s")
-        time.sleep(0.02)
-
-
-class Display:
-    def __enter__(self):
-        read_end, write_end = os.pipe()
-        self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL)
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            self.name = ":" + pipe.readline().strip()
-        return self
-
-    def __exit__(self, *_):
-        self.process.terminate()
-        self.process.wait()
-
-
-class Viewer:
-    """One run of the program in a folder of its own."""
-
-    def __init__(self, program, display, assets, folder, arguments=()):
-        self.folder = folder
-        self.environment = dict(os.environ, DISPLAY=display.name, XDG_CACHE_HOME=os.path.join(folder, "cache"))
-        self.output = open(os.path.join(folder, "output"), "w+b")
-        self.process = subprocess.Popen(
-            [program, "view", *assets, "--metrics", UNTIMED, "--cache-dir", folder, *arguments],
-            cwd=folder, env=self.environment, stdout=self.output, stderr=subprocess.STDOUT)
-
-    def xdotool(self, *arguments):
-        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True,
-                       stdout=subprocess.DEVNULL)
-
-    def window(self):
-        found = subprocess.run(["xdotool", "search", "--name", "Scene Analyzer"], env=self.environment,
-                               capture_output=True, text=True)
-        return found.stdout.split()
-
-    def text(self):
-        self.output.flush()
-        with open(os.path.join(self.folder, "output"), errors="replace") as file:
-            return file.read()
-
-    def printed(self):
-        """What F12 prints."""
-        before = len(self.text())
-        self.xdotool("key", "F12")
-        wait_until(lambda: "Esc    quit" in self.text()[before:], "printing the keys")
-        return self.text()[before:]
-
-    def picture(self):
-        """The bytes of the picture that F9 writes."""
-        before = set(glob.glob(os.path.join(self.folder, "scene-picture-*.png")))
-        self.xdotool("key", "F9")
-        wait_until(lambda: len(self.text().split("the picture is in ")) > len(before) + 1, "writing a picture")
-        (new,) = set(glob.glob(os.path.join(self.folder, "scene-picture-*.png"))) - before
-        with open(new, "rb") as file:
-            return file.read()
-
-    def wait_for_scene(self):
-        wait_until(lambda: self.window() or self.process.poll() is not None, "opening the window")
-        # Titles say what is shown once there is something to show.
-        wait_until(lambda: subprocess.run(["xdotool", "search", "--name", "Scene Analyzer: "], env=self.environment,
-                                          capture_output=True).stdout, "showing the scene")
-
-    def end(self, code=0):
-        self.xdotool("key", "Escape")
-        wait_until(lambda: self.process.poll() is not None, "quitting")
-        check(self.process.returncode == code, f"exit code {self.process.returncode} instead of {code}", self.text())
-
-
-def check(good, what, details=""):
-    if not good:
-        sys.exit(f"FAILED: {what}\n{details}")
 
 
 def try_keys(viewer):
@@ -122,17 +39,21 @@ def try_keys(viewer):
     check(viewer.picture() != before, "Home does not show the whole scene")
 
 
+def wait_for_change(viewer, before, what):
+    """On a busy machine a frame takes a while."""
+    wait_until(lambda: viewer.picture() != before, what, 20)
+
+
 def try_mouse(viewer):
-    whole = viewer.picture()
+    whole, window = viewer.picture(), viewer.window_picture()
     viewer.xdotool("mousemove", 805, 360, "click", 1)  # the middle of the free part: the table
-    time.sleep(0.5)
+    wait_for_change(viewer, whole, "selecting by a click")
     selected = viewer.picture()
-    check(selected != whole, "a click selects nothing")
+    check(viewer.window_picture() != window, "the window does not show what is selected")
     viewer.xdotool("key", "f")
-    check(viewer.picture() != selected, "f does not show the selected mesh")
-    viewer.xdotool("key", "Home", "mousemove", 1270, 10, "click", 1)
-    time.sleep(0.5)
-    check(viewer.picture() == whole, "a click beside the scene does not deselect")
+    wait_for_change(viewer, selected, "showing the selected mesh by f")
+    viewer.xdotool("key", "Home", "mousemove", 400, 650, "click", 1)
+    wait_until(lambda: viewer.picture() == whole, "deselecting by a click beside the scene", 20)
     for button, what in ((1, "turn"), (3, "shift")):
         before = viewer.picture()
         viewer.xdotool("mousemove", 700, 300)
@@ -146,8 +67,7 @@ def try_mouse(viewer):
         check(viewer.picture() != before, f"dragging does not {what} the scene")
     before = viewer.picture()
     viewer.xdotool("click", 4)
-    time.sleep(0.3)
-    check(viewer.picture() != before, "the wheel does not zoom")
+    wait_for_change(viewer, before, "zooming by the wheel")
 
 
 def try_window(viewer):
@@ -203,7 +123,7 @@ def main():
     with Display() as display, tempfile.TemporaryDirectory() as folder:  # one bad asset
         viewer = Viewer(program, display, [scene, "/nonexistent.obj"], folder)
         viewer.wait_for_scene()
-        check("nonexistent.obj" in viewer.text(), "the missing asset is not named", viewer.text())
+        wait_until(lambda: "nonexistent.obj" in viewer.text(), "naming the missing asset")
         viewer.end(3)
     print("all keys, the mouse and the window do what they should")
 

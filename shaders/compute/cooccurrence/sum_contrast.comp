@@ -15,7 +15,8 @@ layout(binding = 4, scalar) readonly buffer ClassRanges { ClassRange class_range
 layout(binding = 5, scalar) readonly buffer Ends { uint ends[]; };         // of shared edges
 layout(binding = 6, scalar) readonly buffer Sums { double sums[]; };       // scanned, see list_shared_attributes.comp
 layout(binding = 7, scalar) readonly buffer Squares { double squares[]; };
-layout(binding = 8, scalar) writeonly buffer Totals { double totals[]; };
+layout(binding = 8, scalar) readonly buffer Rests { double rests[]; };
+layout(binding = 9, scalar) writeonly buffer Totals { double totals[]; };
 #include "compute/lib/threads.glsl"
 #include "compute/lib/attributes.glsl"
 
@@ -42,8 +43,10 @@ void main() {
         uint begin = other & ~kShared;
         uint end = ends[begin];
         uint members = end - begin;
-        double first = sums[end] - sums[begin], second = squares[end] - squares[begin];
-        sum += max(0.0LF, double(members) * own * own - 2.0LF * own * first + second);
+        double first = sums[end] - sums[begin];
+        double second = (squares[end] - squares[begin]) + (rests[end] - rests[begin]);
+        double value = in_steps(own);
+        sum += max(0.0LF, double(members) * value * value - 2.0LF * value * first + second);
         neighbours += members - 1;
       }
     }

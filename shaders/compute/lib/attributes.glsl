@@ -12,4 +12,9 @@ double attribute_of(uint triangle, ClassRange range, double scale) {
   return (class_values[class_of[triangle]] - range.lowest) * scale;
 }
 
+// The nearest of kAttributeSteps + 1 equally spaced values.
+double in_steps(double value) {
+  return floor(value * kAttributeSteps + 0.5LF) / kAttributeSteps;
+}
+
 #endif

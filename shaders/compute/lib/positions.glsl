@@ -3,6 +3,7 @@
 // Needs buffers position_x, position_y, position_z (uint bits) and meshes (MeshRecord).
 #ifndef SCENE_ANALYZER_LIB_POSITIONS
 #define SCENE_ANALYZER_LIB_POSITIONS
+#include "compute/lib/float_bits.glsl"
 
 // Batches hold either similarities only, measured in local coordinates, or transformed geometries only.
 layout(constant_id = 0) const uint kTransformed = 0;
@@ -32,8 +33,6 @@ dvec3 transform(dvec3 p, uint mesh) {
 }
 
 dvec3 analysed_position(uint vertex, uint mesh) { return transform(local_position(vertex), mesh); }
-
-bool is_finite_bits(uint bits) { return (bits & 0x7F800000u) != 0x7F800000u; }
 
 bool is_finite(uint vertex) {
   return is_finite_bits(position_x[vertex]) && is_finite_bits(position_y[vertex]) &&

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/defects.h"
 #include "analysis/metric.h"
 #include "mesh/scene.h"
 
@@ -48,7 +49,10 @@ struct SignalSummary {
 struct GeometryAnalysis {
   std::uint32_t mesh = 0;                   // index in the asset
   mesh::Matrix3 linear = mesh::kIdentity3;  // applied before measuring; identity for similarities
-  std::uint64_t source_triangles = 0;       // = triangles + degenerate_triangles
+  // XXH3-128 (low, high) of the mesh's indices and positions as imported: two meshes with the same hash have
+  // the same shape, in whichever assets. Absent without source triangles and in files of older programs.
+  std::optional<std::array<std::uint64_t, 2>> shape_hash;
+  std::uint64_t source_triangles = 0;  // = triangles + degenerate_triangles
   std::uint64_t degenerate_triangles = 0;
   std::uint64_t triangles = 0;                        // n of the specification
   double surface_area = 0;                            // S in analysed coordinates
@@ -64,6 +68,7 @@ struct GeometryAnalysis {
   std::optional<double> cooccurrence_contrast;
   std::optional<double> fourier_transform;
   std::optional<SignalSummary> signal;  // absent where fourier_transform is; its length may be 0
+  std::optional<Defects> defects;       // absent without source triangles
   std::string no_fourier_transform;     // why that alone is absent although it was asked for; or empty
   std::string not_analysed;             // why everything above is absent, with need and limit; or empty
 };

@@ -44,10 +44,23 @@ void write_signal(const analysis::SignalSummary& from, v1::Signal& to) {
   to.set_searches(from.searches);
 }
 
+void write_defects(const analysis::Defects& from, v1::Defects& to) {
+  for (const analysis::FoundDefect& one : from.found) {
+    v1::Defect& defect = *to.add_found();
+    defect.set_kind(static_cast<v1::Defect::Kind>(one.defect));
+    defect.set_count(one.count);
+    defect.mutable_places()->Add(one.places.begin(), one.places.end());
+  }
+}
+
 void write_geometry(const analysis::GeometryAnalysis& from, v1::Geometry& to) {
   to.set_mesh(from.mesh);
   if (!same_bits(from.linear, mesh::kIdentity3))
     to.mutable_linear()->Add(from.linear.begin(), from.linear.end());
+  if (from.shape_hash) {
+    to.set_shape_hash_low((*from.shape_hash)[0]);
+    to.set_shape_hash_high((*from.shape_hash)[1]);
+  }
   to.set_source_triangles(from.source_triangles);
   to.set_degenerate_triangles(from.degenerate_triangles);
   to.set_triangles(from.triangles);
@@ -64,6 +77,7 @@ void write_geometry(const analysis::GeometryAnalysis& from, v1::Geometry& to) {
   if (from.cooccurrence_contrast) to.set_cooccurrence_contrast(*from.cooccurrence_contrast);
   if (from.fourier_transform) to.set_fourier_transform(*from.fourier_transform);
   if (from.signal) write_signal(*from.signal, *to.mutable_signal());
+  if (from.defects) write_defects(*from.defects, *to.mutable_defects());
   to.set_not_analysed(from.not_analysed);
 }
 

@@ -1,3 +1,5 @@
+#include <google/protobuf/stubs/logging.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <type_traits>
@@ -51,10 +53,23 @@ analysis::SignalSummary read_signal(const v1::Signal& from) {
   return {from.length(), from.start_triangle(), from.mean_distance(), from.gap(), from.searches()};
 }
 
+analysis::Defects read_defects(const v1::Defects& from) {
+  analysis::Defects to;
+  for (const v1::Defect& one : from.found()) {
+    if (!v1::Defect::Kind_IsValid(one.kind())) throw Contradiction("an unknown kind of defect");
+    to.found.push_back({.defect = static_cast<analysis::Defect>(one.kind()),
+                        .count = one.count(),
+                        .places = {one.places().begin(), one.places().end()}});
+  }
+  return to;
+}
+
 analysis::GeometryAnalysis read_geometry(const v1::Geometry& from) {
   analysis::GeometryAnalysis to;
   to.mesh = from.mesh();
   if (from.linear_size() != 0) read_numbers(from.linear(), to.linear, "linear");
+  if (from.has_shape_hash_low() != from.has_shape_hash_high()) throw Contradiction("half a hash of a shape");
+  if (from.has_shape_hash_low()) to.shape_hash = std::array{from.shape_hash_low(), from.shape_hash_high()};
   to.source_triangles = from.source_triangles();
   to.degenerate_triangles = from.degenerate_triangles();
   to.triangles = from.triangles();
@@ -71,6 +86,7 @@ analysis::GeometryAnalysis read_geometry(const v1::Geometry& from) {
   to.cooccurrence_contrast = when(from.has_cooccurrence_contrast(), from.cooccurrence_contrast());
   to.fourier_transform = when(from.has_fourier_transform(), from.fourier_transform());
   if (from.has_signal()) to.signal = read_signal(from.signal());
+  if (from.has_defects()) to.defects = read_defects(from.defects());
   to.not_analysed = from.not_analysed();
   return to;
 }
@@ -147,6 +163,8 @@ Stored read_message(const v1::Analysis& from) {
 
 std::variant<Stored, Unusable> decode(std::string_view payload) {
   v1::Analysis message;
+  // It tells standard error what it dislikes; users get one sentence, ours.
+  const google::protobuf::LogSilencer silencer;
   if (!message.ParseFromArray(payload.data(), static_cast<int>(payload.size())))
     return Unusable{false, "is corrupt: its contents cannot be parsed"};
   try {

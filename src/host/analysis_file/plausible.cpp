@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 namespace scene_analyzer::analysis_file {
@@ -54,6 +55,50 @@ Reason signal_reason(const analysis::GeometryAnalysis& geometry) {
   return std::nullopt;
 }
 
+Reason defect_reason(const analysis::FoundDefect& one, const analysis::GeometryAnalysis& geometry) {
+  using analysis::DefectPlace;
+  const DefectPlace place = place_of(one.defect);
+  if (one.count == 0) return "a defect that was not found";
+  if (place == DefectPlace::kNone) {
+    if (one.count != 1 || !one.places.empty()) return "a defect of a whole mesh more than once or at a place";
+    return std::nullopt;
+  }
+  if (one.places.empty() ||
+      one.places.size() > std::min<std::uint64_t>(one.count, analysis::kMostDefectPlaces))
+    return "more or fewer places of a defect than there are";
+  // Strictly: no place is named twice.
+  if (std::ranges::adjacent_find(one.places, std::greater_equal()) != one.places.end())
+    return "places of a defect in no order";
+  if (place == DefectPlace::kTriangle && one.places.back() >= geometry.source_triangles)
+    return "a defect at a triangle that does not exist";
+  return std::nullopt;
+}
+
+// What is counted twice is counted the same, and by the sum of its parts.
+bool agree(const analysis::Defects& defects, const analysis::GeometryAnalysis& geometry) {
+  using analysis::Defect;
+  const std::uint64_t by_index = defects.count(Defect::kDegenerateByIndex);
+  return by_index <= geometry.degenerate_triangles &&
+         defects.count(Defect::kDegenerateByShape) == geometry.degenerate_triangles - by_index &&
+         defects.count(Defect::kDuplicateTriangles) <= geometry.triangles &&
+         defects.count(Defect::kNonManifoldEdges) == geometry.non_manifold_edges.value_or(0) &&
+         defects.count(Defect::kBoundaryEdges) == geometry.boundary_edges.value_or(0) &&
+         defects.count(Defect::kIsolatedTriangles) == geometry.isolated_triangles.value_or(0) &&
+         (defects.count(Defect::kZeroArea) == 1) ==
+             (geometry.triangles == 0 && geometry.source_triangles > 0);
+}
+
+Reason defects_reason(const analysis::GeometryAnalysis& geometry) {
+  if (!geometry.defects) return std::nullopt;
+  const auto& found = geometry.defects->found;
+  if (std::ranges::adjacent_find(found, std::greater_equal(), &analysis::FoundDefect::defect) != found.end())
+    return "kinds of defects in no order";
+  for (const analysis::FoundDefect& one : found)
+    if (Reason reason = defect_reason(one, geometry)) return reason;
+  if (!agree(*geometry.defects, geometry)) return "defects that contradict the other counts";
+  return std::nullopt;
+}
+
 Reason geometry_reason(const analysis::GeometryAnalysis& geometry) {
   const std::uint64_t n = geometry.triangles;
   const bool counted =
@@ -71,6 +116,7 @@ Reason geometry_reason(const analysis::GeometryAnalysis& geometry) {
   if (!is_rating(geometry.polygons_per_planar_group) || !is_rating(geometry.planar_group_variation) ||
       !is_rating(geometry.cooccurrence_contrast) || !is_rating(geometry.fourier_transform))
     return "a rating outside [0, 1]";
+  if (Reason reason = defects_reason(geometry)) return reason;
   return signal_reason(geometry);
 }
 

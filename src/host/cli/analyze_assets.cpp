@@ -17,6 +17,8 @@
 #include "cli/interrupt.h"
 #include "cli/mesh_files.h"
 #include "cli/progress.h"
+#include "cli/run_state.h"
+#include "import/import.h"
 #include "pipeline/pending_analysis.h"
 
 namespace scene_analyzer::cli {
@@ -42,9 +44,18 @@ bool measuring_is_likely(const AnalyzeRequest& request) {
   });
 }
 
+std::string effort_text(const std::string& asset, const mesh::ImportEffort& effort) {
+  constexpr double kMiB = 1 << 20;
+  return fmt::format(
+      "{}: imported in {:.3f} s; its arrays take {:.1f} MiB, the import worker's peak was {:.1f} MiB", asset,
+      effort.seconds, static_cast<double>(effort.answer_bytes) / kMiB,
+      static_cast<double>(effort.worker_peak_bytes) / kMiB);
+}
+
 void log_outcome(const std::string& asset, const pipeline::Outcome& outcome, double seconds) {
   for (const std::string& message : outcome.messages) log_warning(message);
   if (!outcome.error.empty()) log_error(outcome.error);
+  if (outcome.import) log_detail(effort_text(asset, *outcome.import));
   if (outcome.analysis)
     log_detail(fmt::format("{}: {} in {:.3f} s", asset,
                            outcome.from_file ? "read from its analysis file" : "measured", seconds));
@@ -101,9 +112,11 @@ class AssetLoop {
         exports_(request),
         pipeline_(pipeline_options(request, exports_), [&device]() -> gpu::Device& { return device.get(); }),
         progress_(request.log != LogLevel::kQuiet, request.assets.size()),
-        analyses_(request.assets.size()) {}
+        analyses_(request.assets.size()),
+        kept_(request.assets.size()) {}
 
   Analyses run() {
+    begin_run(request_.assets.size());
     std::map<fs::path, std::size_t> seen;
     std::vector<std::size_t> first_of(request_.assets.size());
     try {
@@ -163,7 +176,12 @@ class AssetLoop {
     };
     Pending next;
     next.asset = asset;
-    next.analysis = timed(next.work, [&] { return pipeline_.start(request_.assets[asset], report); });
+    try {
+      next.analysis = timed(next.work, [&] { return pipeline_.start(request_.assets[asset], report); });
+    } catch (const import::Stopped&) {
+      check_interrupt();
+      throw;
+    }
     pending_.push_back(std::move(next));
     check_interrupt();  // Ctrl-C reaches the import worker too: its end is no fault of the asset
   }
@@ -200,6 +218,7 @@ class AssetLoop {
     });
     all_good_ = all_good_ && outcome.analysis && !is_beyond_a_limit(*outcome.analysis);
     analyses_[done.asset] = std::move(outcome.analysis);
+    kept_[done.asset] = outcome.kept;
     close(done.asset, done.asset);
   }
 
@@ -207,6 +226,7 @@ class AssetLoop {
   void close(std::size_t asset, std::size_t first) {
     if (analyses_[first]) rows_ += analyses_[first]->instances.size();
     progress_.finish_asset(asset);
+    note_asset_done(kept_[first]);
   }
 
   Analyses collect(const std::vector<std::size_t>& first_of) {
@@ -227,6 +247,7 @@ class AssetLoop {
   pipeline::Pipeline pipeline_;
   Progress progress_;
   std::vector<std::optional<analysis::AssetAnalysis>> analyses_;  // of failed and repeated ones: none
+  std::vector<bool> kept_;                                        // in an analysis file
   std::size_t rows_ =
       0;  // of the report before the next asset; only right where exports make all go one by one
   bool all_good_ = true;

@@ -1,6 +1,7 @@
 #include "cli/analyze_command.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,7 +19,9 @@
 #include "cli/lazy_device.h"
 #include "cli/mesh_files.h"
 #include "cli/picture_files.h"
+#include "cli/run_state.h"
 #include "cli/terminal.h"
+#include "import/import.h"
 #include "report/report.h"
 
 namespace scene_analyzer::cli {
@@ -76,7 +79,10 @@ bool write_outputs(const AnalyzeRequest& request, const report::SceneReport& rep
     report::TableStyle style;
     style.color = wants_color(STDOUT_FILENO);
     style.width = terminal_width(STDOUT_FILENO);
-    attempt([&] { print(report::table(report, style)); });
+    attempt([&] {
+      print(report::table(report, style));
+      if (request.defects) print('\n' + report::defect_table(report, style));
+    });
   }
   return good;
 }
@@ -96,16 +102,25 @@ void warn_if_timings_are_mixed(const report::SceneReport& report) {
       "stays empty. With --device all are measured on that device");
 }
 
+void log_peak_memory() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return;
+  log_detail(fmt::format("peak memory of this process {:.1f} MiB, without import workers",
+                         static_cast<double>(usage.ru_maxrss) / 1024));
+}
+
 }  // namespace
 
 int analyze_command(std::span<const std::string> arguments) {
-  const AnalyzeRequest request = parse_analyze(arguments);
+  AnalyzeRequest request = parse_analyze(arguments);
   if (request.help) {
     print(analyze_help());
     return kSuccess;
   }
   set_up_logging(request.log);
   watch_interrupts();
+  request.pipeline.import_limits.stop = interrupt_token();
+  for (const std::string& missing : import::missing_isolation()) log_detail(missing);
   if (request.pictures.image_set) make_folder("image-set", *request.pictures.image_set);
   LazyDevice device(device_options(request.device));
   const Analyses analyses = analyze_assets(request, device);
@@ -116,8 +131,10 @@ int analyze_command(std::span<const std::string> arguments) {
   const report::SceneReport report = make_report(request, analyses.assets);
   warn_if_timings_are_mixed(report);
   bool written = write_outputs(request, report);
+  if (written) note_report_written();
   written = write_export(request, report) && written;
   written = write_pictures(request, report, device) && written;
+  log_peak_memory();
   if (!device_was_used_well(device)) return kUnusable;
   return written && analyses.all_good ? kSuccess : kInputFailed;
 }

@@ -10,6 +10,7 @@
 #include "cli/exit_code.h"
 #include "cli/measuring_options.h"
 #include "cli/option_parsing.h"
+#include "cli/output_options.h"
 
 namespace scene_analyzer::cli {
 namespace {
@@ -25,6 +26,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  scene-analyzer analyze room.glb\n"
     "  scene-analyzer analyze room.glb lamp.obj --json scene.json --csv scene.csv\n"
+    "  scene-analyzer analyze room.glb --defects\n"
     "  scene-analyzer analyze room.glb --eye -1,2,3 --weights distance=1,relative_density=2\n"
     "  scene-analyzer analyze room.glb --image room.png --metric relative_density --emphasis extremes\n"
     "  scene-analyzer analyze scan.stl --alpha 2.5 --weld-tolerance 1e-4 --metrics "
@@ -42,8 +44,15 @@ cxxopts::Options make_options() {
                        "share of each metric in the aggregate, at least 0, those not named 0; default 1 each",
                        text(), "KEY=W,...")(
       "relative", "map each metric from its range within the scene to its whole range before aggregating");
-  options.add_options("Output")("json", "write JSON to FILE, or to standard output in place of the table (-)",
-                                text(), "FILE|-")(
+  options.add_options("Output")("defects",
+                                "print a second table: what is wrong with each mesh (degenerate and "
+                                "duplicate triangles, holes, edges of "
+                                "more than two triangles, flipped neighbours, loose or mergeable vertices "
+                                "and more), how often, the first "
+                                "triangles or vertices to look at, counted from 0 in the file's mesh, and "
+                                "what to do about it. JSON and CSV "
+                                "always have these counts")(
+      "json", "write JSON to FILE, or to standard output in place of the table (-)", text(), "FILE|-")(
       "csv", "write CSV to FILE, or to standard output in place of the table (-)", text(), "FILE|-")(
       "histograms",
       "write how often areas of triangles meet, per mesh a table (.csv) and a picture (.svg), into DIR; "
@@ -75,35 +84,10 @@ void read_rating(const CommandLine& line, analysis::MetricSet metrics, ratings::
         fmt::format("--weights: '{}' gives no weight to any metric that --metrics asks for", *weights));
 }
 
-// Found out now, not after minutes of work.
-void check_output(const std::string& option, const fs::path& path, const std::vector<std::string>& assets) {
-  if (path == "-") return;
-  std::error_code ignored;  // an unreadable path is reported when it is written
-  if (path.empty()) throw UsageError(fmt::format("--{} needs a file name, or - for standard output", option));
-  if (fs::is_directory(path, ignored))
-    throw UsageError(fmt::format("--{}: '{}' is a folder; a file name is needed", option, path.string()));
-  if (path.has_parent_path() && !fs::is_directory(path.parent_path(), ignored))
-    throw UsageError(
-        fmt::format("--{}: the folder '{}' does not exist", option, path.parent_path().string()));
-  for (const std::string& asset : assets)
-    if (fs::equivalent(path, asset, ignored))
-      throw UsageError(
-          fmt::format("--{}: '{}' is one of the assets and would be overwritten", option, path.string()));
-}
-
-void check_different(const std::vector<std::pair<std::string, std::optional<fs::path>>>& outputs) {
-  for (auto a = outputs.begin(); a != outputs.end(); ++a)
-    for (auto b = a + 1; b != outputs.end(); ++b)
-      if (a->second && b->second && a->second->lexically_normal() == b->second->lexically_normal())
-        throw UsageError(
-            fmt::format("--{} and --{} name the same file '{}'", a->first, b->first, a->second->string()));
-}
-
 void read_output(const CommandLine& line, AnalyzeRequest& request) {
+  request.defects = line.flag("defects");
   request.json = line.value("json");
   request.csv = line.value("csv");
-  if (request.json == "-" && request.csv == "-")
-    throw UsageError("--json - and --csv - both ask for standard output; one of them needs a file name");
   if (request.json) check_output("json", *request.json, request.assets);
   if (request.csv) check_output("csv", *request.csv, request.assets);
   if (request.pictures.image) check_output("image", *request.pictures.image, request.assets);

@@ -20,6 +20,7 @@ struct AnalyzeRequest {
   std::vector<std::string> assets;  // as given, at least one
   pipeline::Options pipeline;
   ratings::Options ratings;
+  bool defects = false;                                      // a second table
   std::optional<std::filesystem::path> json, csv;            // "-": standard output, at most one of the two
   std::optional<std::filesystem::path> histograms, signals;  // folders, created when missing
   PictureRequest pictures;

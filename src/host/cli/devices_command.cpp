@@ -119,6 +119,7 @@ void print_json(const std::vector<gpu::DeviceInfo>& devices) {
 }
 
 int list(bool as_json) {
+  keep_drivers_off_a_full_disk();
   const auto devices = gpu::list_devices();
   as_json ? print_json(devices) : print_table(devices);
   if (preferred(devices) != nullptr) return kSuccess;

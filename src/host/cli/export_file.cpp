@@ -50,6 +50,7 @@ bool write_export(const AnalyzeRequest& request, const report::SceneReport& repo
     report::write_file(*request.export_file, make_glb(request, report));
     return true;
   } catch (const InputError& error) {
+    check_interrupt();  // Ctrl-C reaches the import worker too
     log_error(fmt::format("{} is not written: {}", request.export_file->string(), error.what()));
     return false;
   }

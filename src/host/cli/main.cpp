@@ -9,12 +9,15 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/analyze_command.h"
+#include "cli/batch_command.h"
 #include "cli/cache_command.h"
 #include "cli/devices_command.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/logging.h"
+#include "cli/merge_command.h"
 #include "cli/option_parsing.h"
+#include "cli/run_state.h"
 #include "cli/view_command.h"
 #include "gpu/error.h"
 #include "import/import.h"
@@ -31,6 +34,8 @@ constexpr const char* kHelp =
     "\n"
     "Commands:\n"
     "  analyze   rate every mesh of one or several assets\n"
+    "  batch     analyse a library: folders of assets, on one machine or many\n"
+    "  merge     rate such a library as one scene\n"
     "  view      look at the rated scene in a window\n"
     "  devices   list the devices that can compute, or test one against known results\n"
     "  cache     remove old analysis files\n"
@@ -42,14 +47,14 @@ constexpr const char* kHelp =
     "  scene-analyzer analyze room.glb\n";
 
 using Command = int (*)(std::span<const std::string>);
-const std::map<std::string, Command> kCommands = {{"analyze", analyze_command},
-                                                  {"cache", cache_command},
-                                                  {"devices", devices_command},
-                                                  {"view", view_command}};
+const std::map<std::string, Command> kCommands = {{"analyze", analyze_command}, {"batch", batch_command},
+                                                  {"cache", cache_command},     {"devices", devices_command},
+                                                  {"merge", merge_command},     {"view", view_command}};
 
 int dispatch(const std::vector<std::string>& arguments) {
   if (arguments.empty())
-    throw UsageError("no command is given: analyze, view, devices or cache; see scene-analyzer --help");
+    throw UsageError(
+        "no command is given: analyze, batch, merge, view, devices or cache; see scene-analyzer --help");
   const std::string& name = arguments.front();
   if (name == "--help" || name == "-h" || name == "help") {
     fmt::print("{}", kHelp);
@@ -59,8 +64,12 @@ int dispatch(const std::vector<std::string>& arguments) {
     fmt::print("scene-analyzer {}\n", version());
     return kSuccess;
   }
-  if (const auto command = kCommands.find(name); command != kCommands.end())
-    return command->second(std::span(arguments).subspan(1));
+  if (const auto command = kCommands.find(name); command != kCommands.end()) try {
+      return command->second(std::span(arguments).subspan(1));
+    } catch (const import::Stopped&) {
+      check_interrupt();  // which is what has stopped it
+      throw;
+    }
   std::vector<std::string> names;
   for (const auto& [known, command] : kCommands) names.push_back(known);
   const std::string meant = nearest(name, names);
@@ -68,7 +77,7 @@ int dispatch(const std::vector<std::string>& arguments) {
                                meant.empty() ? "" : fmt::format(", did you mean {}?", meant)));
 }
 
-int report_error(int code, const std::exception& error, const char* remedy = "") {
+int report_error(int code, const std::exception& error, const std::string& remedy = "") {
   log_error(fmt::format("{}{}", error.what(), remedy));
   return code;
 }
@@ -87,10 +96,8 @@ int run(const std::vector<std::string>& arguments) {
         "; 'scene-analyzer devices' lists what is there, and the package mesa-vulkan-drivers brings a "
         "device that runs on the processor");
   } catch (const gpu::DeviceLost& error) {
-    return report_error(
-        kUnusable, error,
-        "; finished assets are kept in their analysis files, run the same command again or choose "
-        "another device with --device");
+    const std::string state = describe_run_state();
+    return report_error(kUnusable, error, state.empty() ? "" : " The run has ended " + state);
   } catch (const gpu::OutOfMemory& error) {
     return report_error(
         kUnusable, error,
@@ -102,7 +109,7 @@ int run(const std::vector<std::string>& arguments) {
     return report_error(kUnusable, error,
                         "; without a display, 'scene-analyzer analyze FILE --image FILE.png' draws pictures");
   } catch (const Interrupted& stop) {
-    log_warning("stopped; finished assets are kept in their analysis files");
+    say_stopped();
     return stop.exit_code();
   } catch (const std::exception& error) {
     return report_error(kUnusable, error, " (a defect of scene-analyzer; please report it with the command)");

@@ -45,12 +45,26 @@ void add_measuring_options(cxxopts::Options& options) {
                    text(), "L")("metrics", "compute only these, default all", text(), "KEY,...");
 }
 
-void add_running_options(cxxopts::Options& options) {
+void add_device_options(cxxopts::Options& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add_options("Running")(
       "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
-      text(), "D")("cache-dir", "keep analysis files below DIR, default beside each asset", text(), "DIR")(
-      "no-cache", "neither read nor write analysis files");
+      text(), "D")(
+      "import-memory",
+      "memory that reading an asset may take, default 4G and 32 bytes per byte of the file, at most what the "
+      "machine has",
+      text(), "SIZE")("import-timeout", "seconds that reading an asset may take, default 120", text(), "S")(
+      "max-triangles",
+      "refuse assets of more triangles, those of a mesh counted once however often it is placed; default no "
+      "limit",
+      text(), "N");
+}
+
+void add_running_options(cxxopts::Options& options) {
+  add_device_options(options);
+  options.add_options("Running")("cache-dir", "keep analysis files below DIR, default beside each asset",
+                                 cxxopts::value<std::string>(),
+                                 "DIR")("no-cache", "neither read nor write analysis files");
 }
 
 void read_measuring(const CommandLine& line, pipeline::Options& options) {
@@ -87,7 +101,29 @@ std::optional<fs::path> read_folder(const CommandLine& line, const std::string& 
   return *folder;
 }
 
-std::string read_running(const CommandLine& line, pipeline::Options& options) {
+namespace {
+
+// Below it the worker has no room for its own code.
+constexpr std::uint64_t kLeastImportMemory = std::uint64_t{64} << 20;
+
+void read_limits(const CommandLine& line, import::Limits& limits) {
+  if (const auto size = line.value("import-memory")) {
+    limits.memory_bytes = parse_size("import-memory", *size);
+    if (limits.memory_bytes < kLeastImportMemory)
+      throw UsageError(
+          fmt::format("--import-memory: '{}' is less than 64M; no asset can be read with it", *size));
+  }
+  if (const auto seconds = line.value("import-timeout"))
+    limits.seconds = parse_number("import-timeout", *seconds, 0.001, 86400, "seconds");
+  if (const auto triangles = line.value("max-triangles"))
+    limits.triangles =
+        parse_integer("max-triangles", *triangles, 1, std::numeric_limits<std::uint32_t>::max());
+}
+
+}  // namespace
+
+std::string read_device(const CommandLine& line, pipeline::Options& options) {
+  read_limits(line, options.import_limits);
   std::string selector;
   if (const auto device = line.value("device")) {
     if (device->empty())
@@ -95,6 +131,11 @@ std::string read_running(const CommandLine& line, pipeline::Options& options) {
     selector = *device;
     options.this_device_only = true;
   }
+  return selector;
+}
+
+std::string read_running(const CommandLine& line, pipeline::Options& options) {
+  const std::string selector = read_device(line, options);
   options.use_analysis_files = !line.flag("no-cache");
   options.cache_folder = read_folder(line, "cache-dir");
   if (options.cache_folder && !options.use_analysis_files)

@@ -14,11 +14,14 @@ namespace scene_analyzer::cli {
 // The groups "Measuring" and "Running" of the help.
 void add_measuring_options(cxxopts::Options& options);
 void add_running_options(cxxopts::Options& options);
+// Of "Running" what does not say where analysis files are kept.
+void add_device_options(cxxopts::Options& options);
 std::string metric_help();
 
 // All throw UsageError.
 void read_measuring(const CommandLine& line, pipeline::Options& options);
 // The device's selector, "" for the preferred one.
+std::string read_device(const CommandLine& line, pipeline::Options& options);
 std::string read_running(const CommandLine& line, pipeline::Options& options);
 // A folder that exists, or can be made later. Absent when it was not given.
 std::optional<std::filesystem::path> read_folder(const CommandLine& line, const std::string& option);

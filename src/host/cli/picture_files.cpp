@@ -91,6 +91,7 @@ bool attempt(const std::string& lost, Progress& progress, const std::function<vo
   } catch (const std::bad_alloc&) {
     return say("this machine has too little free memory; try a smaller --size or fewer assets");
   } catch (const std::runtime_error& error) {
+    check_interrupt();  // Ctrl-C reaches the import worker too
     return say(error.what());
   }
 }
@@ -143,6 +144,9 @@ class Studio {
             "the device cannot draw planar groups (geometryShader is missing): all meshes are grey there");
       });
     model_ = loader.finish();
+    progress_.aside([&] {
+      for (const std::string& warning : loader.take_warnings()) log_warning(warning);
+    });
     frame();
   }
 

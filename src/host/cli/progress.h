@@ -1,15 +1,13 @@
-// progress.h — What a long run is doing, on standard error: a bar that redraws itself on a terminal, a line
-// every few seconds elsewhere. Nothing in the first two seconds, so that short runs stay silent.
+// progress.h — What a long run over some assets is doing, on standard error (status_line.h).
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <functional>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "cli/status_line.h"
 
 namespace scene_analyzer::cli {
 
@@ -24,15 +22,10 @@ std::string progress_bar(const ProgressState& state, std::size_t width);
 // "progress: 42%, asset 2 of 3, room.glb: planar groups"
 std::string progress_line(const ProgressState& state);
 
-// Draws from a thread of its own, because importing a file and a step on the GPU do not report back for
-// seconds.
 class Progress {
  public:
   explicit Progress(bool enabled, std::size_t assets,
                     std::chrono::milliseconds silence = std::chrono::seconds(2));
-  ~Progress();  // wipes the bar
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   // Assets count from 0; several may be under way.
   void start_asset(std::size_t asset, const std::string& name);
@@ -40,7 +33,7 @@ class Progress {
   void finish_asset(std::size_t asset);
 
   // Runs `print`, which writes to the terminal, with the bar out of the way.
-  void aside(const std::function<void()>& print);
+  void aside(const std::function<void()>& print) { status_.aside(print); }
 
  private:
   struct Asset {
@@ -48,17 +41,10 @@ class Progress {
     double done = 0;
   };
   void raise(std::size_t asset, double fraction);
-  void draw_until_stopped(const std::stop_token& stop);
-  void wipe();
 
-  const bool bar_;
-  const std::chrono::milliseconds silence_;
-  std::mutex mutex_;
-  std::condition_variable_any changed_;
   ProgressState state_;
   std::vector<Asset> assets_;
-  bool drawn_ = false;
-  std::jthread thread_;  // last: starts when all else is there, joins first
+  StatusLine status_;  // last: it draws the others
 };
 
 }  // namespace scene_analyzer::cli

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "pipeline/import_again.h"
 
 namespace scene_analyzer::cli {
+
 void SceneLoader::add(const analysis::AssetAnalysis& analysis, bool groups,
                       const pipeline::Progress& progress) {
   progress(0, "import for pictures");
@@ -45,6 +47,12 @@ void SceneLoader::add_with_groups(const mesh::Scene& scene, const analysis::Asse
     of_instance.push_back(known.empty() ? nullptr : &known);
   }
   builder_.add(scene, of_instance);
+}
+
+scene_render::SceneModel SceneLoader::finish() {
+  scene_render::SceneModel model = builder_.finish();
+  std::ranges::move(builder_.take_warnings(), std::back_inserter(warnings_));
+  return model;
 }
 
 }  // namespace scene_analyzer::cli

@@ -9,7 +9,7 @@
 #include "analysis/analysis.h"
 #include "import/import.h"
 #include "pipeline/measure.h"
-#include "scene_render/scene_model.h"
+#include "scene_render/scene_model_builder.h"
 
 namespace scene_analyzer::cli {
 
@@ -21,12 +21,13 @@ class SceneLoader {
 
   // Imports `analysis.asset`, with textures. `groups`: with planar groups, which are measured anew, as no
   // analysis file holds them. Throws InputError, also when the asset is no longer what was analysed;
-  // gpu::OutOfMemory.
+  // gpu::OutOfMemory
+  // where planar groups are measured; gpu::DeviceLost.
   void add(const analysis::AssetAnalysis& analysis, bool groups, const pipeline::Progress& progress);
 
-  scene_render::SceneModel finish() { return builder_.finish(); }
+  scene_render::SceneModel finish();
 
-  // What was said about textures since the last call.
+  // What was said about textures and about what does not fit on the device, since the last call.
   std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
  private:

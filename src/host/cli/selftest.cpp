@@ -55,6 +55,18 @@ Expectation contrast(double expected) {
   return rating(analysis::Metric::kCooccurrenceContrast, &GeometryAnalysis::cooccurrence_contrast, expected);
 }
 
+// Of all kinds together.
+Expectation defects(std::uint64_t expected) {
+  return {"defects", static_cast<double>(expected), 0,
+          [](const GeometryAnalysis& geometry) -> std::optional<double> {
+            if (!geometry.defects) return std::nullopt;
+            double sum = 0;
+            for (const analysis::FoundDefect& one : geometry.defects->found)
+              sum += static_cast<double>(one.count);
+            return sum;
+          }};
+}
+
 struct Case {
   BuiltInMesh mesh;
   std::vector<Expectation> expectations;
@@ -71,10 +83,11 @@ std::vector<Case> make_cases() {
     return count("components", &GeometryAnalysis::components, n);
   };
   std::vector<Case> cases;
-  cases.push_back(
-      {cube(), {triangles(12), groups(6), components(1), boundary(0), non_manifold(0), per_group(6.0 / 11)}});
+  cases.push_back({cube(),
+                   {triangles(12), groups(6), components(1), boundary(0), non_manifold(0), defects(0),
+                    per_group(6.0 / 11)}});
   cases.push_back({prism(6, 5, 1, 3), {triangles(72), groups(8), per_group(64.0 / 71)}});
-  cases.push_back({geosphere(2), {triangles(320), groups(320), per_group(0), boundary(0)}});
+  cases.push_back({geosphere(2), {triangles(320), groups(320), per_group(0), boundary(0), defects(0)}});
   cases.push_back({split_tetrahedron(0), {triangles(4), groups(4), variation(0)}});
   cases.push_back({split_tetrahedron(1), {triangles(6), groups(4), variation(0.5)}});
   cases.push_back({split_tetrahedron(3), {triangles(30), groups(4), variation(0.9)}});
@@ -83,7 +96,7 @@ std::vector<Case> make_cases() {
   cases.push_back(
       {prism(10, 1, 0.03, 0.12),
        {triangles(40), groups(12), per_group(28.0 / 39), variation(std::sqrt(0.15)), contrast(1.0 / 3)}});
-  cases.push_back({square_tube(0), {triangles(8), boundary(8), contrast(0)}});
+  cases.push_back({square_tube(0), {triangles(8), boundary(8), defects(8), contrast(0)}});
   cases.push_back({square_tube(1), {triangles(12), boundary(12), contrast(0.53303)}});
   cases.push_back({square_tube(2), {triangles(16), boundary(16), contrast(1)}});
   return cases;

@@ -72,6 +72,7 @@ int view_command(std::span<const std::string> arguments) {
     std::tie(view.width, view.height) = parse_pixels("window-size", *size);
   view.warn = [](const std::string& message) { log_warning(message); };
   view.print = print_text;
+  view.tell = [](const std::string& message) { log_detail(message); };
   return viewer::run_viewer(view) ? kSuccess : kInputFailed;
 }
 

@@ -22,8 +22,9 @@ using interface::mesh::GeometryTotals;
 
 namespace {
 
-// Leading mantissa bits that the sort looks at, at least: areas that agree in them differ by less than 6e-11.
-constexpr std::uint32_t kLeastMantissaBits = 34;
+// Leading mantissa bits that the sort looks at: areas that agree in them differ by less than 6e-11. Always as
+// many, so that a mesh's areas have the same order whatever meshes are beside it.
+constexpr std::uint32_t kSortedMantissaBits = 34;
 constexpr std::uint32_t kMantissaBits = 52;
 
 struct KeyLayout {
@@ -35,8 +36,8 @@ std::uint32_t biased_exponent(double value) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value) >> kMantissaBits);
 }
 
-// Mesh, exponent and mantissa in as few 8-bit digits as keep kLeastMantissaBits; one value of the mesh's bits
-// stays free for degenerate triangles.
+// Mesh, exponent and mantissa: at most 17 + 11 + 34 bits. One value of the mesh's bits stays free for
+// degenerate triangles.
 KeyLayout key_layout(std::uint64_t triangles, std::span<const GeometryTotals> results) {
   std::uint32_t least = 2047, most = 0;
   for (const GeometryTotals& totals : results) {
@@ -46,14 +47,11 @@ KeyLayout key_layout(std::uint64_t triangles, std::span<const GeometryTotals> re
   }
   const auto mesh_bits = static_cast<std::uint32_t>(std::bit_width(results.size()));
   const auto exponent_bits = static_cast<std::uint32_t>(std::bit_width(most - least));
-  const std::uint32_t fixed = mesh_bits + exponent_bits;
-  const std::uint32_t bits = std::min(64U, (fixed + kLeastMantissaBits + 7) / 8 * 8);
-  const std::uint32_t mantissa_bits = std::min(kMantissaBits, bits - fixed);
   return {.params = {.triangles = static_cast<std::uint32_t>(triangles),
                      .exponent_bits = exponent_bits,
-                     .mantissa_bits = mantissa_bits,
+                     .mantissa_bits = kSortedMantissaBits,
                      .least_exponent = least},
-          .bits = fixed + mantissa_bits};
+          .bits = mesh_bits + exponent_bits + kSortedMantissaBits};
 }
 
 }  // namespace

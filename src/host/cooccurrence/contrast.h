@@ -1,6 +1,6 @@
 // contrast.h — R_ccm's sum: how much the areas of neighbours differ, without the dense matrix.
 //
-// Cost: linear. Memory: 8 bytes per chunk of triangles, 16 per half-edge on edges with more than two
+// Cost: linear. Memory: 8 bytes per chunk of triangles, 24 per half-edge on edges with more than two
 // triangles.
 #pragma once
 

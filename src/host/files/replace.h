@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace scene_analyzer::files {
@@ -21,11 +22,35 @@ struct ReplaceOptions {
   FolderSync folder_sync = FolderSync::kIfPossible;
 };
 
+// The same in pieces, for what is larger than memory should hold.
+class Replacement {
+ public:
+  // Creates the temporary file. Throws std::system_error, as all members do.
+  explicit Replacement(std::filesystem::path target, const ReplaceOptions& options = {});
+  ~Replacement();  // removes what was not committed
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  void write(std::string_view bytes);
+  // Makes it the target, once.
+  void commit();
+
+ private:
+  class Temporary;
+  const std::filesystem::path target_;
+  const ReplaceOptions options_;
+  const std::unique_ptr<Temporary> temporary_;
+};
+
 // Writes `bytes` to a temporary name beside `target`, syncs, renames it to `target` and syncs the folder.
 // Killed at any moment it leaves the old file or the new one, and at most a file that is_temporary_name()
 // knows. A symbolic link at `target` is replaced itself; the folder has to exist.
 // Throws std::system_error with the system's reason; then nothing is left behind and the old file is
 // untouched (the one exception: FolderSync::kRequired).
 void replace(const std::filesystem::path& target, std::string_view bytes, const ReplaceOptions& options = {});
+
+// For the thread that ends the process while others may be writing: removes their temporary files. A
+// replace() that begins after it never comes back.
+void forbid_and_remove_temporaries();
 
 }  // namespace scene_analyzer::files

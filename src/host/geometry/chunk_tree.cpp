@@ -29,9 +29,19 @@ std::vector<Chunk> cut(std::vector<Run>& runs) {
 
 }  // namespace
 
-ChunkTree::ChunkTree(gpu::Device& device, std::span<const interface::mesh::MeshRecord> records) {
-  std::vector<Run> runs;
-  for (const auto& record : records) runs.push_back({record.first_triangle, record.triangle_count});
+std::vector<ChunkTree::Range> triangle_ranges(std::span<const interface::mesh::MeshRecord> records) {
+  std::vector<ChunkTree::Range> ranges;
+  for (const auto& record : records) ranges.push_back({record.first_triangle, record.triangle_count});
+  return ranges;
+}
+
+std::vector<ChunkTree::Range> vertex_ranges(std::span<const interface::mesh::MeshRecord> records) {
+  std::vector<ChunkTree::Range> ranges;
+  for (const auto& record : records) ranges.push_back({record.first_vertex, record.vertex_count});
+  return ranges;
+}
+
+ChunkTree::ChunkTree(gpu::Device& device, std::vector<Range> runs) {
   const auto single = [](const Run& run) { return run.count == 1; };
   do {
     const std::vector<Chunk> chunks = cut(runs);

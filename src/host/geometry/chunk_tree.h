@@ -7,6 +7,8 @@
 //
 // Partial results of all levels share one array; every level begins at a multiple of
 // 32 entries, so that it can be bound alone whatever alignment a device asks for (at most 256 bytes).
+//
+// What is said of triangles holds for vertices where the tree was made of their ranges.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +24,14 @@ namespace scene_analyzer::geometry {
 
 class ChunkTree {
  public:
+  struct Range {
+    std::uint32_t first, count;
+  };
+
   ChunkTree() = default;
-  // `records`: meshes with at least one triangle each. Cost: linear in triangles / kChunkSize + meshes.
-  ChunkTree(gpu::Device& device, std::span<const interface::mesh::MeshRecord> records);
+  // `ranges`: the triangles or the vertices of each mesh, at least one each. Cost: linear in their number /
+  // kChunkSize + meshes.
+  ChunkTree(gpu::Device& device, std::vector<Range> ranges);
 
   std::uint64_t leaf_count() const { return sizes_.front(); }     // chunks of triangles
   std::uint64_t partial_count() const { return partial_count_; }  // entries of a partial-result array
@@ -32,9 +39,6 @@ class ChunkTree {
   std::uint64_t result_offset() const { return offsets_.back(); }  // where the per-mesh results begin
   const gpu::Array<interface::mesh::Chunk>& leaves() const { return levels_.front(); }
   // Level 1, chunks of chunks: always there. Those of one mesh follow each other.
-  struct Range {
-    std::uint32_t first, count;
-  };
   const gpu::Array<interface::mesh::Chunk>& blocks() const { return levels_[1]; }
   std::uint32_t block_offset() const { return offsets_[1]; }
   Range blocks_of(std::size_t mesh) const { return blocks_of_[mesh]; }
@@ -68,5 +72,8 @@ class ChunkTree {
   std::vector<Range> blocks_of_;
   std::uint64_t partial_count_ = 0;
 };
+
+std::vector<ChunkTree::Range> triangle_ranges(std::span<const interface::mesh::MeshRecord> records);
+std::vector<ChunkTree::Range> vertex_ranges(std::span<const interface::mesh::MeshRecord> records);
 
 }  // namespace scene_analyzer::geometry

@@ -65,8 +65,7 @@ GeometryBuilder::GeometryBuilder(gpu::Device& device)
       probe_instances_(device.make_kernel("probe_instances", probe_instances_spv)),
       bound_instances_(device.make_kernel("bound_instances", bound_instances_spv)) {}
 
-void GeometryBuilder::record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry,
-                                         const gpu::Array<std::uint32_t>& representative) const {
+void GeometryBuilder::record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry) const {
   gpu::Device& device = recorder.device();
   const auto vertices = static_cast<std::uint32_t>(geometry.vertex_count);
   const std::uint32_t slots = weld_slots(device.info(), vertices);
@@ -77,24 +76,23 @@ void GeometryBuilder::record_exact_welds(gpu::Recorder& recorder, const Geometry
                         .slots = slots};
   recorder.run(weld_vertices_, vertices, weld,
                {geometry.position_x, geometry.position_y, geometry.position_z, geometry.meshes, table,
-                representative});
-  recorder.run(resolve_welds_, vertices, ResolveParams{vertices}, {table, representative});
+                geometry.representative});
+  recorder.run(resolve_welds_, vertices, ResolveParams{vertices}, {table, geometry.representative});
 }
 
 Geometry GeometryBuilder::record(gpu::Recorder& recorder, const Batch& batch, double weld_tolerance) const {
   gpu::Device& device = recorder.device();
   Geometry geometry = upload(device, batch);
-  const auto& representative =
-      recorder.keep(gpu::Array<std::uint32_t>(device, "vertex representatives", geometry.vertex_count));
   if (weld_tolerance > 0) {
-    representative.upload(device, welds_within(batch, weld_tolerance));
+    geometry.representative.upload(device, welds_within(batch, weld_tolerance));
   } else {
-    record_exact_welds(recorder, geometry, representative);
+    record_exact_welds(recorder, geometry);
   }
+  recorder.fill(geometry.referenced, 0);
   const auto leaves = static_cast<std::uint32_t>(geometry.chunks.leaf_count());
-  recorder.run(
-      weld_corners_, leaves, ChunkParams{leaves},
-      {geometry.chunks.leaves(), geometry.meshes, representative, geometry.corners, geometry.mesh_of});
+  recorder.run(weld_corners_, leaves, ChunkParams{leaves},
+               {geometry.chunks.leaves(), geometry.meshes, geometry.representative, geometry.corners,
+                geometry.mesh_of, geometry.referenced});
   recorder.run(geometry.transformed ? measure_transformed_ : measure_, leaves, ChunkParams{leaves},
                {geometry.chunks.leaves(), geometry.meshes, geometry.position_x, geometry.position_y,
                 geometry.position_z, geometry.corners, geometry.areas, geometry.totals});

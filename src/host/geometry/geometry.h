@@ -2,7 +2,7 @@
 // mesh.
 //
 // Memory per triangle (unwelded mesh in brackets): positions 6 (36), corners 12, mesh 4, areas 8, totals 1;
-// while welding also 12 (24) for the hash table and representatives.
+// while welding also 12 (24) for the hash table and representatives, of which 2 (12) remain.
 #pragma once
 
 #include <cstdint>
@@ -52,9 +52,11 @@ struct Geometry {
   ChunkTree chunks;
   gpu::Array<interface::mesh::MeshRecord> meshes;
   gpu::Array<std::uint32_t> position_x, position_y, position_z;
-  gpu::Array<std::uint32_t> corners;  // welded: of vertices with equal coordinates the lowest index
-  gpu::Array<std::uint32_t> mesh_of;  // per triangle
-  gpu::Array<double> areas;           // 0 for degenerate triangles, positive for kept ones
+  gpu::Array<std::uint32_t> corners;         // welded: of vertices with equal coordinates the lowest index
+  gpu::Array<std::uint32_t> mesh_of;         // per triangle
+  gpu::Array<double> areas;                  // 0 for degenerate triangles, positive for kept ones
+  gpu::Array<std::uint32_t> representative;  // per vertex: of those welded into one the lowest
+  gpu::Array<std::uint32_t> referenced;      // bit v % 32 of word v / 32: whether a triangle names vertex v
   gpu::Array<interface::mesh::GeometryTotals> totals;  // partial results of `chunks`
 
   // The per-mesh part of `totals`, for kernels.
@@ -85,8 +87,7 @@ class GeometryBuilder {
                                                      std::span<const InstanceToBound> instances) const;
 
  private:
-  void record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry,
-                          const gpu::Array<std::uint32_t>& representative) const;
+  void record_exact_welds(gpu::Recorder& recorder, const Geometry& geometry) const;
 
   void bound_window(gpu::Device& device, const Geometry& geometry,
                     std::span<const interface::geometry::InstanceRecord> instances, std::uint32_t outputs,

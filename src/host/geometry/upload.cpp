@@ -74,7 +74,7 @@ Geometry upload(gpu::Device& device, const Batch& batch) {
   geometry.triangle_count = batch.triangle_count();
   geometry.transformed = batch.transformed;
   geometry.records = records_of(batch);
-  geometry.chunks = ChunkTree(device, geometry.records);
+  geometry.chunks = ChunkTree(device, triangle_ranges(geometry.records));
   geometry.meshes = gpu::Array<MeshRecord>(device, "mesh records", geometry.records.size());
   geometry.meshes.upload(device, geometry.records);
   geometry.position_x = upload_axis(device, batch, 0, geometry.vertex_count);
@@ -88,6 +88,10 @@ Geometry upload(gpu::Device& device, const Batch& batch) {
   }
   geometry.mesh_of = gpu::Array<std::uint32_t>(device, "mesh of triangle", geometry.triangle_count);
   geometry.areas = gpu::Array<double>(device, "triangle areas", geometry.triangle_count);
+  geometry.representative =
+      gpu::Array<std::uint32_t>(device, "vertex representatives", geometry.vertex_count);
+  geometry.referenced =
+      gpu::Array<std::uint32_t>(device, "referenced vertices", (geometry.vertex_count + 31) / 32);
   geometry.totals =
       gpu::Array<interface::mesh::GeometryTotals>(device, "geometry totals", geometry.chunks.partial_count());
   return geometry;

@@ -27,10 +27,7 @@ void check_limits(const DeviceInfo& info, const std::string& name, std::uint64_t
     refuse(name, bytes,
            "the device's largest allocation has " + std::to_string(info.max_allocation_bytes) +
                " bytes (maxMemoryAllocationSize)");
-  // A CPU device's driver grants what the kernel would later kill this process for.
-  if (info.type == DeviceType::kCpu && bytes >= kLookAtFreeMemory)
-    if (const auto free = free_host_memory_bytes(); free && bytes > *free)
-      refuse(name, bytes, "this machine has " + std::to_string(*free) + " bytes of memory left");
+  check_free_memory(info, "buffer '" + name + "'", bytes);
 }
 
 void allocate(Device::Native& native, Buffer::Impl& impl, std::uint32_t type, std::uint64_t bytes) {
@@ -49,6 +46,13 @@ std::unique_ptr<Buffer::Impl> make_device_buffer(Device::Native& native, const s
 }
 
 }  // namespace
+
+void check_free_memory(const DeviceInfo& info, const std::string& what, std::uint64_t bytes) {
+  if (info.type != DeviceType::kCpu || bytes < kLookAtFreeMemory) return;
+  if (const auto free = free_host_memory_bytes(); free && bytes > *free)
+    throw OutOfMemory(what + " needs " + std::to_string(bytes) + " bytes, but this machine has " +
+                      std::to_string(*free) + " bytes of memory left");
+}
 
 Buffer::Buffer() = default;
 Buffer::~Buffer() = default;

@@ -41,7 +41,8 @@ struct DeviceInfo {
   std::uint64_t free_memory_bytes = 0;  // VK_EXT_memory_budget (budget - usage) or the operating system's
                                         // free memory on CPU devices; else the heap's size
   std::uint32_t subgroup_size = 0;
-  bool can_draw = false;  // its queue takes graphics commands, and it has the formats of RenderTarget
+  std::uint32_t max_index = 0;  // of a vertex in a draw (maxDrawIndexedIndexValue)
+  bool can_draw = false;        // its queue takes graphics commands, and it has the formats of RenderTarget
   std::uint32_t timestamp_bits = 0;   // of its queue's counter (timestampValidBits); 0: it has none
   double timestamp_period_ns = 0;     // of one tick
   bool counts_invocations = false;    // of shaders, per draw (pipelineStatisticsQuery)

@@ -90,6 +90,7 @@ void describe_drawing(const vk::raii::PhysicalDevice& device, const vk::Physical
   info.can_draw = (family.queueFlags & vk::QueueFlagBits::eGraphics) &&
                   draws_to(kColorFormat, vk::FormatFeatureFlagBits::eColorAttachment) &&
                   draws_to(kDepthFormat, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
+  info.max_index = properties.limits.maxDrawIndexedIndexValue;
   info.timestamp_bits = family.timestampValidBits;
   info.timestamp_period_ns = properties.limits.timestampPeriod;
   const vk::PhysicalDeviceFeatures features = device.getFeatures();

@@ -13,6 +13,7 @@ Image make_image(Device::Native& native, vk::ImageCreateInfo info, vk::ImageAspe
   const vk::MemoryRequirements need = made.image.getMemoryRequirements();
   const auto type = native.memory_types.for_images(need.memoryTypeBits);
   if (!type) throw Error("the device has no memory type for images");
+  check_free_memory(native.info, "an image", need.size);
   if (allocation_fails(native.faults)) throw vk::OutOfDeviceMemoryError("asked for by a test");
   made.memory =
       vk::raii::DeviceMemory(native.device, {.allocationSize = need.size, .memoryTypeIndex = *type});

@@ -94,13 +94,16 @@ inline vk::SampleCountFlagBits sample_count(std::uint32_t samples) {
 inline constexpr vk::ShaderStageFlags kDrawStages =
     vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
+// A CPU device's driver grants what the kernel would later kill this process for: throws OutOfMemory instead.
+void check_free_memory(const DeviceInfo& info, const std::string& what, std::uint64_t bytes);
+
 // An image with memory of its own, and a view of all of it.
 struct Image {
   vk::raii::DeviceMemory memory{nullptr};
   vk::raii::Image image{nullptr};
   vk::raii::ImageView view{nullptr};
 };
-// Two-dimensional, of one layer; `aspect` is what the view shows. Throws vk::SystemError, Error.
+// Two-dimensional, of one layer; `aspect` is what the view shows. Throws vk::SystemError, Error, OutOfMemory.
 Image make_image(Device::Native& native, vk::ImageCreateInfo info, vk::ImageAspectFlags aspect);
 // From whatever was recorded before to whatever comes after, all levels.
 vk::ImageMemoryBarrier2 change_layout(const Image& image, vk::ImageAspectFlags aspect, vk::ImageLayout from,

@@ -27,6 +27,24 @@ vk::CompositeAlphaFlagBitsKHR choose_alpha(vk::CompositeAlphaFlagsKHR offered) {
   return Alpha::ePostMultiplied;
 }
 
+// As translated(), for calls that a surface takes part in.
+template <typename Call>
+auto with_surface(Device::Native& native, const std::string& doing, const Call& call) {
+  try {
+    return translated(doing, [&] {
+      try {
+        return call();
+      } catch (const vk::SurfaceLostKHRError&) {
+        throw Error("the window was lost while " + doing +
+                    ": the window system or its display has taken it away. Start again");
+      }
+    });
+  } catch (const DeviceLost&) {
+    native.lost = true;
+    throw;
+  }
+}
+
 }  // namespace
 
 struct Presenter::Impl {
@@ -147,7 +165,7 @@ Presenter::Presenter(Device& device, const SurfaceMaker& make_surface)
   const std::uint64_t made = make_surface(instance);
   if (made == 0) throw Error("the window has no surface that Vulkan can draw to");
   impl_->surface = vk::raii::SurfaceKHR(native.instance.instance, reinterpret_cast<VkSurfaceKHR>(made));
-  translated("preparing the window", [&] {
+  with_surface(native, "preparing the window", [&] {
     if (!native.physical_device.getSurfaceSupportKHR(native.queue_family, *impl_->surface))
       throw Error("device " + native.info.name +
                   " cannot show pictures in this window; choose another with --device");
@@ -160,8 +178,15 @@ Presenter::Presenter(Device& device, const SurfaceMaker& make_surface)
 
 Presenter::~Presenter() = default;
 
+bool Presenter::has_pixels() const {
+  return with_surface(impl_->native, "looking at the window", [&] {
+    const auto size = impl_->native.physical_device.getSurfaceCapabilitiesKHR(*impl_->surface).currentExtent;
+    return size.width != 0 && size.height != 0;
+  });
+}
+
 bool Presenter::present(const RenderTarget& picture) {
-  return translated("showing a picture", [&] {
+  return with_surface(impl_->native, "showing a picture", [&] {
     const RenderTarget::Impl& images = picture.impl();
     const bool fits = *impl_->swapchain != vk::SwapchainKHR{} && impl_->extent == images.extent;
     if (!fits && !impl_->remake(images.extent)) return false;

@@ -28,6 +28,9 @@ class Presenter {
   // draw again then. Throws Error when the window's surface is lost, DeviceLost, OutOfMemory.
   bool present(const RenderTarget& picture);
 
+  // False: present() would show nothing (minimised). Cheap. Throws as present() does.
+  bool has_pixels() const;
+
   struct Impl;
 
  private:

@@ -28,6 +28,15 @@ bool is_file(const std::string& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+// Of a file that is there: whether links on the way to it lead out of `folder`, which is canonical.
+bool leads_out(const fs::path& folder, const std::string& path) {
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error);
+  if (error) return true;
+  const fs::path relative = target.lexically_relative(folder);
+  return relative.empty() || *relative.begin() == "..";
+}
+
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -67,8 +76,14 @@ AssetFiles::AssetFiles(std::string asset_name) : asset_(std::move(asset_name)), 
 }
 
 AssetFiles::Found AssetFiles::look_up(std::string_view text) const {
-  // The asset's own name is taken as it is: it may hold any character.
+  // The asset's own name is taken as it is: it may hold any character, and be a link to anywhere.
   if (text == asset_) return {Reference::Kind::kInside, "./" + asset_};
+  const Found found = look_up_name(text);
+  if (found.path.empty() || !leads_out(folder_, found.path)) return found;
+  return {Reference::Kind::kOutside, {}};
+}
+
+AssetFiles::Found AssetFiles::look_up_name(std::string_view text) const {
   const Reference plain = resolve_reference(folder_, text);
   if (plain.kind != Reference::Kind::kInside || is_file(plain.path)) return {plain.kind, plain.path};
   if (text.find('%') != std::string_view::npos) {

@@ -2,7 +2,7 @@
 // first.
 //
 // Every name that is asked for is recorded, found or not, because the result depends on it; names that lead
-// out of the asset's folder are refused.
+// out of the asset's folder, by themselves or through links, are refused.
 #pragma once
 
 #include <filesystem>
@@ -62,6 +62,7 @@ class AssetFiles {
 
  private:
   Found look_up(std::string_view reference) const;
+  Found look_up_name(std::string_view reference) const;  // without regard to links
   void record(const std::string& path, bool found);
 
   std::string asset_;

@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "import/mapped_file.h"
+#include "import/obj_check.h"
 #include "import/ply_check.h"
+#include "import/text.h"
 
 namespace scene_analyzer::import {
 namespace {
@@ -43,6 +45,10 @@ constexpr std::array kImposters = {
 };
 constexpr std::array kTextFormats = {".obj"sv, ".ply"sv, ".off"sv, ".stl"sv, ".gltf"sv};
 
+bool is_utf16(std::string_view contents) {
+  return contents.starts_with("\xFF\xFE"sv) || contents.starts_with("\xFE\xFF"sv);
+}
+
 void check_start(std::string_view contents, const std::string& extension) {
   if (contents.starts_with("version https://git-lfs.github.com/spec/"))
     throw InputError("is a Git LFS pointer, not the asset itself; fetch it with `git lfs pull`");
@@ -57,8 +63,8 @@ void check_start(std::string_view contents, const std::string& extension) {
       throw InputError("holds " + std::string(imposter.what));
   if (contents.starts_with("glTF\2"sv) && extension != ".glb" && extension != ".gltf")
     throw InputError("holds binary glTF; rename it to .glb");
-  const bool utf16 = contents.starts_with("\xFF\xFE"sv) || contents.starts_with("\xFE\xFF"sv);
-  if (utf16 && std::find(kTextFormats.begin(), kTextFormats.end(), extension) != kTextFormats.end())
+  if (is_utf16(contents) &&
+      std::find(kTextFormats.begin(), kTextFormats.end(), extension) != kTextFormats.end())
     throw InputError("is UTF-16 text, which this format does not allow; convert it to UTF-8");
 }
 
@@ -89,6 +95,7 @@ struct Ending {
 constexpr std::array kEndings = {Ending{".stl", "endsolid"}, Ending{".dxf", "eof"}, Ending{".smd", "end"},
                                  Ending{".x3d", "</x3d"}};
 constexpr std::size_t kLastBytes = 512;
+constexpr std::size_t kLongestMessage = 300;
 
 void check_ending(std::string_view contents, const std::string& extension,
                   std::vector<std::string>& warnings) {
@@ -111,18 +118,41 @@ void check_file(const std::string& asset, std::vector<std::string>& warnings) {
   check_ending(file.text(), extension, warnings);
 }
 
-void require_content(const std::string& asset, std::size_t meshes) {
-  if (extension_of(asset) == ".3mf" && meshes == 0)
+std::string replacement_for(const std::string& asset) {
+  return extension_of(asset) == ".obj" ? without_indentation(MappedFile("./" + asset).text()) : std::string();
+}
+
+void require_content(const std::string& asset, std::size_t meshes, std::uint64_t triangles,
+                     std::vector<std::string>& warnings) {
+  const std::string extension = extension_of(asset);
+  if (extension == ".3mf" && meshes == 0)
     throw InputError("holds no object that Assimp can read; 3MF's production extension is not supported");
+  if (extension != ".obj") return;
+  const std::uint64_t faces = count_obj_faces(MappedFile("./" + asset).text());
+  if (triangles >= faces) return;
+  const std::string counts = "Assimp reads " + std::to_string(triangles) + " triangles of a file with " +
+                             std::to_string(faces) + " faces";
+  if (triangles == 0)
+    throw InputError(counts + "; do its faces name texture coordinates or normals that it does not hold?");
+  warnings.push_back(counts + "; the others are left out, probably because their corners are damaged");
 }
 
 std::string explain_failure(const std::string& assimp_message, const std::string& asset) {
+  if (is_utf16(MappedFile("./" + asset).text()))
+    return "is UTF-16 text, which Assimp does not read in this format; convert it to UTF-8";
   if (assimp_message.starts_with("No suitable reader found")) {
     if (extension_of(asset).empty()) return "has no extension and its contents are in no known format";
     return "its contents are not in the format that \"" + extension_of(asset) + "\" stands for";
   }
   if (assimp_message.empty()) return "Assimp cannot read it and gives no reason";
-  return "Assimp cannot read it: " + assimp_message;
+  // It may quote the rest of the file.
+  std::string line = assimp_message;
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  const std::string reason = "Assimp cannot read it: " + clean_text(line, kLongestMessage);
+  if (assimp_message.find("Invalid accessor without data") != std::string::npos)
+    return reason + "; if its geometry is compressed, export it without compression";
+  return reason;
 }
 
 }  // namespace scene_analyzer::import

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,15 @@ namespace scene_analyzer::import {
 // are shorter than their counts. Cost: the first bytes; binary PLY: one pass over elements that hold lists.
 void check_file(const std::string& asset, std::vector<std::string>& warnings);
 
-// Throws InputError for formats of which Assimp is known to skip everything without a word.
-void require_content(const std::string& asset, std::size_t meshes);
+// What Assimp has to read in place of the file, or empty: indented lines of OBJ.
+std::string replacement_for(const std::string& asset);
 
-// Assimp's message, made to be read by someone who knows the file but not Assimp.
+// Throws InputError where Assimp skipped everything without a word; a part of it is a warning. `triangles`
+// are those of the scene. Cost: OBJ: one pass over the file.
+void require_content(const std::string& asset, std::size_t meshes, std::uint64_t triangles,
+                     std::vector<std::string>& warnings);
+
+// Assimp's message, made to be read by someone who knows the file but not Assimp. Looks at the file's start.
 std::string explain_failure(const std::string& assimp_message, const std::string& asset);
 
 }  // namespace scene_analyzer::import

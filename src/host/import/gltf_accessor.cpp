@@ -149,7 +149,7 @@ GltfAccessors::Accessor GltfAccessors::look_up(std::uint64_t number, bool compre
   if (accessor.sparse) check_sparse(*sparse, accessor, name);
   if (compressed) return accessor;
   if (!entry.contains("bufferView")) {
-    if (!accessor.sparse) throw InputError(name + " has no data");
+    if (!accessor.sparse) throw InputError(name + " has no buffer view: all its values would be 0");
     return accessor;  // zeros but for what is replaced
   }
   accessor.data =

@@ -20,7 +20,7 @@ struct ExpectedGltf {
   // Materials of the file; what Assimp has beyond is its default.
   std::size_t materials = std::numeric_limits<std::size_t>::max();
   // What Assimp has to read in place of the file, or empty: skins without matrices, which are valid, crash
-  // it. The rest pose needs no skin.
+  // it (the rest pose needs no skin), and a byte order mark hides the format from it.
   std::string replacement;
 };
 

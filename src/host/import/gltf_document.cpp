@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -113,6 +114,47 @@ std::span<const std::uint8_t> external(GltfDocument& document, AssetFiles& files
   return document.files.emplace_back(found.path).bytes();
 }
 
+// Two readers of JSON take two different ones of two members with one name. Takes valid JSON for a second
+// time: json::parse with a callback walks an array's whole beginning at every object in it.
+class DuplicateFinder : public nlohmann::json_sax<json> {
+ public:
+  bool key(string_t& name) override {
+    if (open_.back().insert(name).second) return true;
+    throw InputError("its JSON is ambiguous: an object has the member \"" + name.substr(0, 64) + "\" twice");
+  }
+  bool start_object(std::size_t /*size*/) override {
+    open_.emplace_back();
+    return true;
+  }
+  bool end_object() override {
+    open_.pop_back();
+    return true;
+  }
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(number_integer_t /*value*/) override { return true; }
+  bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+  bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+  bool string(string_t& /*value*/) override { return true; }
+  bool binary(binary_t& /*value*/) override { return true; }
+  bool start_array(std::size_t /*size*/) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t /*at*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& /*error*/) override {
+    return false;  // the first reading has said it
+  }
+
+ private:
+  std::vector<std::set<std::string>> open_;  // member names of the objects that are open
+};
+
+json parse_json(std::string_view text) {
+  json root = json::parse(text);
+  DuplicateFinder duplicates;
+  json::sax_parse(text, &duplicates);
+  return root;
+}
+
 bool is_gltf(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -145,7 +187,7 @@ std::optional<GltfDocument> open_gltf(const AssetFiles& files, std::vector<std::
     throw InputError("is no binary glTF: it does not start with \"glTF\"");
   }
   try {
-    document.root = json::parse(container->json);
+    document.root = parse_json(container->json);
   } catch (const json::exception& error) {
     const std::string_view message = error.what();  // "[json.exception.parse_error.101] parse error at ..."
     throw InputError("its JSON is broken: " +
@@ -154,6 +196,8 @@ std::optional<GltfDocument> open_gltf(const AssetFiles& files, std::vector<std::
   if (!document.root.is_object()) throw InputError("its JSON is not an object");
   if (is_version_1(document.root)) return std::nullopt;
   document.binary_chunk = container->binary;
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) document.behind_mark = text.substr(kMark.size());
   return document;
 }
 

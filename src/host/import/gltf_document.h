@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "import/asset_files.h"
@@ -19,7 +20,10 @@ struct GltfDocument {
   std::vector<std::span<const std::uint8_t>> buffers;  // exactly byteLength bytes each
 
   std::optional<std::span<const std::uint8_t>> binary_chunk;  // of a GLB
-  std::vector<MappedFile> files;                              // what the spans point into
+  // The file's text behind a byte order mark, which JSON does not have, files do and Assimp trips over; else
+  // empty.
+  std::string_view behind_mark;
+  std::vector<MappedFile> files;  // what the spans point into
   std::vector<std::vector<std::uint8_t>> decoded;
 };
 

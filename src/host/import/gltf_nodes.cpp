@@ -25,7 +25,7 @@ std::vector<std::uint64_t> node_numbers(const json& array, std::size_t nodes, co
 
 std::vector<std::uint64_t> roots_of(const json& root, std::size_t nodes) {
   const json& scenes = array_of(root, "scenes", "the file");
-  if (scenes.empty()) throw InputError("has no scene: nothing in it is shown");
+  if (scenes.empty()) throw InputError("has no scene: nothing in it is shown; export it with a scene");
   const std::uint64_t shown = whole_number(root, "scene", 0, "the file");
   if (shown >= scenes.size())
     throw InputError("its default scene " + std::to_string(shown) + " does not exist");

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "import/sandbox.h"
 #include "import/scene_wire.h"
 #include "import/text.h"
 #include "import/wire.h"
@@ -79,6 +80,7 @@ mesh::Scene import_once(const fs::path& asset, const Limits& limits, Textures te
   mesh::Scene scene = read_scene(reader);
   scene.asset = asset.string();
   scene.storage = answer.owner;
+  scene.effort = answer.effort;
   return scene;
 }
 
@@ -96,6 +98,33 @@ mesh::Scene import_readable(const fs::path& asset, const Limits& limits, Texture
 
 }  // namespace
 
+std::set<std::string, std::less<>> known_extensions() {
+  std::string list;
+  Assimp::Importer().GetExtensionList(list);  // "*.3ds;*.obj"
+  std::set<std::string, std::less<>> extensions;
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(';', begin), list.size());
+    const std::string_view pattern = std::string_view(list).substr(begin, end - begin);
+    if (pattern.starts_with("*.")) extensions.emplace(pattern.substr(2));
+    begin = end + 1;
+  }
+  return extensions;
+}
+
+std::vector<std::string> missing_isolation() {
+  std::vector<std::string> missing;
+  const Offered offered = offered_by_kernel();
+  if (!offered.landlock)
+    missing.emplace_back(
+        "this kernel offers no Landlock: what keeps the import worker to the asset's folder are the names "
+        "alone, "
+        "which are checked");
+  if (!offered.seccomp)
+    missing.emplace_back(
+        "this kernel offers no seccomp: the import worker is not kept from the network and other processes");
+  return missing;
+}
+
 mesh::Scene import_asset(const fs::path& asset, const Limits& limits, Textures textures) {
   const std::string name = clean_text(asset.string(), 4096);
   try {
@@ -105,6 +134,7 @@ mesh::Scene import_asset(const fs::path& asset, const Limits& limits, Textures t
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
   } catch (const WorkerFailure& error) {
+    if (error.machine_was_busy()) throw EndedEarly(name + ": " + error.what());
     throw InputError(name + ": " + error.what());
   } catch (const wire::Malformed& error) {
     throw InputError(name + ": the importer gave no usable answer: " + error.what());

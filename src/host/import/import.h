@@ -8,9 +8,13 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <stop_token>
 #include <string>
+#include <vector>
 
+#include "base/error.h"
 #include "mesh/scene.h"
 
 namespace scene_analyzer::import {
@@ -20,6 +24,7 @@ inline constexpr const char* kWorkerArgument = "--import-worker";
 struct Limits {
   std::uint64_t memory_bytes = 0;  // address space of the worker; 0: derived from the file's size
   double seconds = 120;            // wall clock and CPU
+  std::uint64_t triangles = 0;     // of all meshes, each counted once however often it is placed; 0: no limit
   std::stop_token stop = {};       // asked to stop, the worker is killed within a tenth of a second
 };
 
@@ -27,6 +32,12 @@ struct Limits {
 class Stopped : public std::exception {
  public:
   const char* what() const noexcept override { return "the import was stopped"; }
+};
+
+// The import took too long by the clock, or the system ended it for lack of memory: with less going on beside
+// it, it may succeed.
+class EndedEarly : public InputError {
+  using InputError::InputError;
 };
 
 // What becomes of base colour textures.
@@ -49,6 +60,12 @@ enum class Textures : std::uint8_t {
 // up to 20 bytes per pixel of the worker's memory.
 mesh::Scene import_asset(const std::filesystem::path& asset, const Limits& limits = {},
                          Textures textures = Textures::kLeave);
+
+// Extensions of the formats that Assimp reads, in lower case, without a dot.
+std::set<std::string, std::less<>> known_extensions();
+
+// What this kernel does not offer to keep the worker in, one sentence each; empty where all is there.
+std::vector<std::string> missing_isolation();
 
 // The worker's main: called by main() when the first argument is kWorkerArgument. Returns the exit code.
 int worker_main(int argc, char** argv);

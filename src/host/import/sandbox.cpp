@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <linux/seccomp.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -30,6 +31,7 @@ void limit(__rlimit_resource resource, std::uint64_t soft, std::uint64_t hard) {
 
 // Everything the first version of Landlock knows: reading, writing, executing, making and removing.
 constexpr std::uint64_t kHandled = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) - 1;
+constexpr std::uint64_t kTruncate = std::uint64_t{1} << 14;  // of its third version; younger than our headers
 constexpr std::uint64_t kReadFile = LANDLOCK_ACCESS_FS_READ_FILE;
 constexpr std::uint64_t kReadFolder = kReadFile | LANDLOCK_ACCESS_FS_READ_DIR;
 
@@ -42,26 +44,41 @@ void allow(int rules, const std::filesystem::path& path, std::uint64_t access) {
   if (added != 0) throw_system_error("restricting the import worker");
 }
 
+// 0 where the kernel has none, or whoever started us forbids it.
+long landlock_version() noexcept {
+  return std::max(0L, ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
+}
+
 }  // namespace
 
-void limit_this_process([[maybe_unused]] std::uint64_t memory_bytes, std::uint64_t cpu_seconds,
-                        pid_t parent) {
+Offered offered_by_kernel() noexcept {
+  Offered offered;
+  offered.landlock = landlock_version() > 0;
+  const std::uint32_t action = SECCOMP_RET_ERRNO;
+  offered.seccomp = ::syscall(SYS_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &action) == 0;
+  return offered;
+}
+
+void limit_this_process(std::uint64_t memory_bytes, std::uint64_t cpu_seconds, pid_t parent) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) throw_system_error("tying the import worker to its parent");
   if (::getppid() != parent) ::_exit(1);  // it died before the line above
 #ifndef __SANITIZE_ADDRESS__
   limit(RLIMIT_AS, memory_bytes, memory_bytes);
 #endif
+  // The answer lies in memory too, and no address space is needed to write it.
+  limit(RLIMIT_FSIZE, memory_bytes, memory_bytes);
   limit(RLIMIT_CPU, cpu_seconds, cpu_seconds + 5);
   limit(RLIMIT_CORE, 0, 0);
 }
 
 void allow_reading_only(const std::filesystem::path& folder, const std::filesystem::path& asset) {
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) throw_system_error("restricting the import worker");
+  const long known = landlock_version();
+  if (known == 0) return;
   landlock_ruleset_attr attributes{};
-  attributes.handled_access_fs = kHandled;
+  attributes.handled_access_fs = kHandled | (known >= 3 ? kTruncate : 0);
   const int rules = static_cast<int>(
       ::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes.handled_access_fs, 0));
-  if (rules < 0 && (errno == ENOSYS || errno == EOPNOTSUPP || errno == EPERM)) return;
   if (rules < 0) throw_system_error("restricting the import worker");
   allow(rules, folder, kReadFolder);
   allow(rules, asset, kReadFile);

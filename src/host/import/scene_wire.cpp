@@ -1,6 +1,9 @@
 #include "import/scene_wire.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -49,6 +52,8 @@ void read_materials(wire::Reader& reader, mesh::Scene& scene) {
     const bool has_color = reader.number<std::uint8_t>() != 0;
     std::array<float, 4> color;
     for (float& channel : color) channel = reader.number<float>();
+    require(!has_color || std::ranges::all_of(color, [](float c) { return c >= 0 && c <= 1; }),
+            "a material's colour is none");
     if (has_color) material.base_color = color;
     const bool has_texture = reader.number<std::uint8_t>() != 0;
     const auto texture = reader.number<std::uint32_t>();
@@ -90,6 +95,38 @@ void read_meshes(wire::Reader& reader, mesh::Scene& scene) {
   }
 }
 
+// Also without a branch: files of many vertices are the rule, such vertices are not.
+bool all_finite(std::span<const float> values) {
+  constexpr std::uint32_t kMagnitude = 0x7FFFFFFF, kInfinity = 0x7F800000;
+  std::uint32_t largest = 0;
+  for (const float value : values)
+    largest = std::max(largest, std::bit_cast<std::uint32_t>(value) & kMagnitude);
+  return largest < kInfinity;
+}
+
+// What is no number cannot be measured; metrics.md says what becomes of it.
+void warn_about_numbers(mesh::Scene& scene) {
+  std::size_t meshes = 0, nodes = 0;
+  std::uint64_t vertices = 0;
+  for (const mesh::TriangleMesh& mesh : scene.meshes) {
+    if (all_finite(mesh.positions)) continue;
+    ++meshes;
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+      vertices += all_finite(mesh.positions.subspan(i, 3)) ? 0 : 1;
+  }
+  for (const mesh::Instance& instance : scene.instances)
+    nodes +=
+        std::ranges::all_of(instance.world, [](double element) { return std::isfinite(element); }) ? 0 : 1;
+  if (vertices > 0)
+    scene.warnings.push_back(
+        std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") + " of " +
+        std::to_string(meshes) + (meshes == 1 ? " mesh" : " meshes") +
+        " with coordinates that are no finite numbers; triangles with them count as degenerate");
+  if (nodes > 0)
+    scene.warnings.push_back(std::to_string(nodes) + (nodes == 1 ? " instance" : " instances") +
+                             " of meshes whose node's matrix holds what is no finite number");
+}
+
 void read_instances(wire::Reader& reader, mesh::Scene& scene) {
   scene.instances.resize(reader.count(140));
   for (mesh::Instance& instance : scene.instances) {
@@ -107,9 +144,12 @@ mesh::Scene read_scene(wire::Reader& reader) {
   scene.format = name(reader);
   const bool has_unit = reader.number<std::uint8_t>() != 0;
   const auto unit = reader.number<double>();
+  require(!has_unit || (std::isfinite(unit) && unit > 0), "a unit is no length");
   if (has_unit) scene.unit_scale = unit;
   const bool has_up = reader.number<std::uint8_t>() != 0;
   std::string up = name(reader);
+  constexpr std::array<std::string_view, 6> kAxes = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+  require(!has_up || std::ranges::find(kAxes, up) != kAxes.end(), "an axis is none");
   if (has_up) scene.up_axis = std::move(up);
   read_files(reader, scene);
   read_textures(reader, scene);
@@ -118,6 +158,7 @@ mesh::Scene read_scene(wire::Reader& reader) {
   for (std::string& warning : scene.warnings) warning = clean_text(reader.string(), 2048);
   read_meshes(reader, scene);
   read_instances(reader, scene);
+  warn_about_numbers(scene);
   return scene;
 }
 

@@ -20,7 +20,8 @@ namespace scene_analyzer::import {
 //
 // Arrays stay where they are: the scene's spans point into the reader's memory, which the caller keeps alive
 // in Scene::storage. Names are cleaned. Throws wire::Malformed, and InputError (without the asset's name)
-// when a triangle asks for a vertex that is not there. Cost: one pass over the indices.
+// when a triangle asks for a vertex that is not there. Coordinates and matrices may hold NaN and infinity,
+// as files do: that is a warning. Cost: one pass over indices and positions.
 mesh::Scene read_scene(wire::Reader& reader);
 
 }  // namespace scene_analyzer::import

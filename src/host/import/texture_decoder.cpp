@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <string>
@@ -10,9 +11,20 @@
 
 #include "mesh/scene.h"
 
+namespace {
+
+// The library copies nothing to nowhere, which memcpy does not allow, for a PNG whose first piece of data is
+// empty.
+void* copy_bytes(void* to, const void* from, std::size_t bytes) {
+  return bytes == 0 ? to : std::memcpy(to, from, bytes);
+}
+
+}  // namespace
+
 // Compiled here instead of linked: memory comes cleared, so that the rest of a picture that ends early is the
 // same in every run (the library shows what lay there before), only these formats are read, and nobody opens
 // files.
+#define memcpy copy_bytes
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -27,6 +39,7 @@
 #define STBI_REALLOC(pointer, bytes) std::realloc(pointer, bytes)
 #define STBI_FREE(pointer) std::free(pointer)
 #include <stb_image.h>
+#undef memcpy
 
 namespace scene_analyzer::import {
 namespace {
@@ -45,12 +58,12 @@ ImageSize size_of(std::span<const std::uint8_t> encoded) {
   return {static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)};
 }
 
-void check_size(const ImageSize& size) {
+void check_size(const ImageSize& size, std::uint64_t most_pixels) {
   const std::string text = std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels";
   if (std::max(size.width, size.height) > kLongestImageSide)
     throw NotDecodable(text + ", and no side may have more than " + std::to_string(kLongestImageSide));
-  if (size.pixels() > kMostImagePixels)
-    throw NotDecodable(text + ", and no more than " + std::to_string(kMostImagePixels) + " are decoded");
+  if (size.pixels() > most_pixels)
+    throw NotDecodable(text + ", and no more than " + std::to_string(most_pixels) + " are decoded");
 }
 
 std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
@@ -59,17 +72,22 @@ std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
   return value;
 }
 
-// Bytes that the file of a format without compression has at least; 0 for the others.
+// Bytes that the file of a format without compression, or with run lengths, has at least; 0 for the others.
 std::uint64_t least_bytes(std::span<const std::uint8_t> encoded, std::uint64_t pixels) {
   const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
   if (text.starts_with("BM") && encoded.size() >= 30)
     return little_endian(encoded.subspan(10, 4)) + pixels * encoded[encoded[14] == 12 ? 24 : 28] / 8;
   for (const char* const other : {"\x89PNG", "\xFF\xD8", "GIF8", "8BPS"})
     if (text.starts_with(other)) return 0;
-  const bool uncompressed_tga = encoded.size() >= 18 && encoded[2] >= 1 && encoded[2] <= 3;
-  if (!uncompressed_tga) return 0;
+  constexpr std::uint64_t kHeader = 18, kLongestRun = 128;
+  if (encoded.size() < kHeader) return kHeader;
+  const unsigned type = encoded[2] & 7u;  // 1 to 3; with run lengths 9 to 11
+  if (type < 1 || type > 3) return 0;
   const std::uint64_t palette = encoded[1] == 0 ? 0 : little_endian(encoded.subspan(5, 2)) * encoded[7] / 8;
-  return 18 + encoded[0] + palette + pixels * encoded[16] / 8;
+  const std::uint64_t bytes_each = (encoded[16] + 7u) / 8;
+  const std::uint64_t runs = (pixels + kLongestRun - 1) / kLongestRun;
+  return kHeader + encoded[0] + palette +
+         ((encoded[2] & 8) != 0 ? runs * (1 + bytes_each) : pixels * bytes_each);
 }
 
 // The decoder takes the end of these files for zeros.
@@ -116,9 +134,9 @@ DecodedImage shrink(std::span<const std::uint8_t> rgba, std::uint32_t width, std
   return result;
 }
 
-DecodedImage decode_image(std::span<const std::uint8_t> encoded) {
+DecodedImage decode_image(std::span<const std::uint8_t> encoded, std::uint64_t most_pixels) {
   const ImageSize announced = size_of(encoded);
-  check_size(announced);
+  check_size(announced, most_pixels);
   check_is_whole(encoded, announced);
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(

@@ -28,7 +28,8 @@ class NotDecodable : public std::runtime_error {
 // NotDecodable for larger ones than the constants above, for other formats and for damaged files. Not all
 // damage is noticed: the rest of a JPEG that ends early is grey. Cost: some 25 ms per million pixels, twice
 // that with 16 bits per channel; up to 20 bytes per pixel of the image while it lasts.
-DecodedImage decode_image(std::span<const std::uint8_t> encoded);
+DecodedImage decode_image(std::span<const std::uint8_t> encoded,
+                          std::uint64_t most_pixels = kMostImagePixels);
 
 // Halves `rgba` (4 * width * height values) as often as it takes until no side is longer than `longest`, at
 // once: each pixel of the result is the rounded mean, per channel and of the stored values, of the box of

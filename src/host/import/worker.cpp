@@ -56,20 +56,37 @@ void throw_if_out_of_memory(const Assimp::Importer& importer) {
   }
 }
 
-void import_into(AssetFiles& files, Textures textures, wire::Writer& writer) {
+struct Job {
+  std::filesystem::path asset;
+  Textures textures = Textures::kLeave;
+  std::uint64_t most_triangles = 0;  // 0: no limit
+};
+
+void require_few_triangles(std::uint64_t triangles, const Job& job) {
+  if (job.most_triangles == 0 || triangles <= job.most_triangles) return;
+  throw InputError("holds " + std::to_string(triangles) + " triangles, more than the limit of " +
+                   std::to_string(job.most_triangles) + " (--max-triangles)");
+}
+
+void import_into(AssetFiles& files, const Job& job, wire::Writer& writer) {
   std::vector<std::string> warnings;
   check_file(files.asset_name(), warnings);
   const ExpectedGltf expected = check_gltf(files, warnings);
+  require_few_triangles(expected.triangles.value_or(0), job);  // before they are read
+  const std::string replacement =
+      expected.replacement.empty() ? replacement_for(files.asset_name()) : expected.replacement;
   Assimp::Importer importer;
-  importer.SetIOHandler(new AssetIo(files, expected.replacement));  // which the importer owns
+  importer.SetIOHandler(new AssetIo(files, replacement));  // which the importer owns
   if (importer.ReadFile("./" + files.asset_name(), aiProcess_Triangulate) == nullptr) {
     throw_if_out_of_memory(importer);
     throw InputError(explain_failure(importer.GetErrorString(), files.asset_name()));
   }
   aiScene* const scene = importer.GetOrphanedScene();  // freed by the end of the process
   require_expected(expected, *scene);
-  require_content(files.asset_name(), scene->mNumMeshes);
-  write_scene(*scene, expected.materials, files, std::move(warnings), textures, writer);
+  const std::uint64_t triangles = count_triangles(*scene);
+  require_few_triangles(triangles, job);
+  require_content(files.asset_name(), scene->mNumMeshes, triangles, warnings);
+  write_scene(*scene, expected.materials, files, std::move(warnings), job.textures, writer);
 }
 
 void refuse(const std::string& reason) {
@@ -87,16 +104,11 @@ void refuse_system_error(const std::system_error& error) {
     refuse(error.what());
 }
 
-struct Job {
-  std::filesystem::path asset;
-  Textures textures = Textures::kLeave;
-};
-
 void run(const Job& job) {
   try {
     AssetFiles files(job.asset.filename().string());
     wire::Writer writer(kAnswerDescriptor);
-    import_into(files, job.textures, writer);
+    import_into(files, job, writer);
   } catch (const std::bad_alloc&) {
     wire::write_header_only(kAnswerDescriptor, wire::Status::kOutOfMemory);
   } catch (const std::system_error& error) {
@@ -138,13 +150,14 @@ std::uint64_t number(const char* text) {
 }  // namespace
 
 int worker_main(int argc, char** argv) {
-  if (argc != 7) return 2;  // started by hand: it has no one to answer to
+  if (argc != 8) return 2;  // started by hand: it has no one to answer to
   try {
-    Job job{argv[2], number(argv[6]) != 0 ? Textures::kDecode : Textures::kLeave};
+    Job job{argv[2], number(argv[6]) != 0 ? Textures::kDecode : Textures::kLeave, number(argv[7])};
     // The stack is room that most files never touch: it comes on top of what the import may take.
     limit_this_process(number(argv[3]) + kStackBytes, number(argv[4]), static_cast<pid_t>(number(argv[5])));
     if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());
     allow_reading_only(".", job.asset.filename());
+    allow_computing_only();
     std::set_new_handler(report_out_of_memory);
     use_one_arena();
     run_on_deep_stack(job);

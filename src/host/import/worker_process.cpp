@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -120,12 +121,17 @@ class Child {
     return std::nullopt;
   }
 
+  // Largest resident memory, once it has ended by itself.
+  std::uint64_t peak_bytes() const { return peak_bytes_; }
+
  private:
   int wait() {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0)
+    rusage usage{};
+    while (::wait4(id_, &status, 0, &usage) < 0)
       if (errno != EINTR) throw_system_error("waiting for the import worker");
     reaped_ = true;
+    peak_bytes_ = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     return status;
   }
   void kill_and_wait() {
@@ -139,6 +145,7 @@ class Child {
   pid_t id_;
   int handle_;
   bool reaped_ = false;
+  std::uint64_t peak_bytes_ = 0;
 };
 
 std::uint64_t whole_seconds(double seconds) {
@@ -154,23 +161,26 @@ std::string in_units(double seconds) {
 
 std::string out_of_memory(const Limits& limits) {
   return "importing it needs more than the limit of " + std::to_string(limits.memory_bytes >> 20) +
-         " MiB of memory; the file may claim counts that it does not hold";
+         " MiB of memory (--import-memory); the file may claim counts that it does not hold";
 }
 
 std::string out_of_time(const Limits& limits) {
-  return "importing it takes longer than the limit of " + in_units(limits.seconds);
+  return "importing it takes longer than the limit of " + in_units(limits.seconds) + " (--import-timeout)";
 }
 
 std::string describe_signal(int signal, const Limits& limits) {
   if (signal == SIGXCPU) return out_of_time(limits);
+  if (signal == SIGXFSZ) return out_of_memory(limits);
+  if (signal == SIGBUS)
+    return "the importer crashed (SIGBUS); did the file become shorter while it was read? Try again";
   if (signal == SIGKILL) return "the importer was killed by the system, probably for lack of memory";
   const char* abbreviation = sigabbrev_np(signal);
   return "the importer crashed (" +
          (abbreviation ? "SIG" + std::string(abbreviation) : "signal " + std::to_string(signal)) +
-         "); the file is damaged or hits a defect of Assimp";
+         "); the file is damaged or hits a defect of Assimp; export it again, or in another format";
 }
 
-Answer map(const Descriptor& memory) {
+Answer map(const Descriptor& memory, const mesh::ImportEffort& effort) {
   struct stat state {};
   if (::fstat(memory.get(), &state) != 0) throw_system_error("reading the import worker's answer");
   const auto bytes = static_cast<std::size_t>(state.st_size);
@@ -179,7 +189,9 @@ Answer map(const Descriptor& memory) {
   if (address == MAP_FAILED) throw_system_error("mapping the import worker's answer");
   std::shared_ptr<const void> owner(
       address, [bytes](const void* start) { ::munmap(const_cast<void*>(start), bytes); });
-  return {owner, {static_cast<const std::byte*>(address), bytes}};
+  return {owner,
+          {static_cast<const std::byte*>(address), bytes},
+          {effort.seconds, effort.worker_peak_bytes, bytes}};
 }
 
 // Set by the worker's allocator before it gives up, whatever it died of afterwards.
@@ -196,19 +208,23 @@ bool says_out_of_memory(const Answer& answer) {
 Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Textures textures) {
   const Descriptor memory(::memfd_create("imported scene", MFD_CLOEXEC | MFD_ALLOW_SEALING),
                           "making memory for the import worker");
+  const auto start = Clock::now();
   Child child(SpawnPlan(memory.get())
                   .spawn({program_invocation_name, kWorkerArgument, asset.string(),
                           std::to_string(limits.memory_bytes), std::to_string(whole_seconds(limits.seconds)),
-                          std::to_string(::getpid()), std::to_string(static_cast<int>(textures))}));
+                          std::to_string(::getpid()), std::to_string(static_cast<int>(textures)),
+                          std::to_string(limits.triangles)}));
   const std::optional<int> status = child.wait_for(limits.seconds, limits.stop);
-  if (!status) throw WorkerFailure(out_of_time(limits));
+  if (!status) throw WorkerFailure(out_of_time(limits), true);
 
   constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL;
   if (::fcntl(memory.get(), F_ADD_SEALS, kSeals) != 0)
     throw_system_error("sealing the import worker's answer");
-  Answer answer = map(memory);
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  Answer answer = map(memory, {seconds, child.peak_bytes(), 0});
   if (says_out_of_memory(answer)) throw WorkerFailure(out_of_memory(limits));
-  if (WIFSIGNALED(*status)) throw WorkerFailure(describe_signal(WTERMSIG(*status), limits));
+  if (WIFSIGNALED(*status))
+    throw WorkerFailure(describe_signal(WTERMSIG(*status), limits), WTERMSIG(*status) == SIGKILL);
   if (WEXITSTATUS(*status) != 0)
     throw WorkerFailure("the importer ended unexpectedly (exit code " + std::to_string(WEXITSTATUS(*status)) +
                         ")");

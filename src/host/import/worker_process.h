@@ -6,8 +6,10 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "import/import.h"
+#include "mesh/scene.h"
 
 namespace scene_analyzer::import {
 
@@ -16,13 +18,21 @@ inline constexpr int kAnswerDescriptor = 3;
 
 // The worker crashed or exceeded a limit: one sentence without the asset's name.
 class WorkerFailure : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+ public:
+  explicit WorkerFailure(const std::string& what, bool machine_was_busy = false)
+      : std::runtime_error(what), machine_was_busy_(machine_was_busy) {}
+  // Whether it may end better with less going on beside it.
+  bool machine_was_busy() const { return machine_was_busy_; }
+
+ private:
+  bool machine_was_busy_;
 };
 
 // What the worker wrote, sealed against any further change and mapped for reading.
 struct Answer {
   std::shared_ptr<const void> owner;
   std::span<const std::byte> memory;
+  mesh::ImportEffort effort;
 };
 
 // `limits` are already derived: memory_bytes > 0. Throws WorkerFailure, Stopped, and std::system_error

@@ -73,6 +73,13 @@ struct ReferencedFile {
   bool found = true;  // false: the asset asks for it but it is not there
 };
 
+// What the import took.
+struct ImportEffort {
+  double seconds = 0;                   // wall clock, of the worker
+  std::uint64_t worker_peak_bytes = 0;  // its largest resident memory
+  std::uint64_t answer_bytes = 0;       // memory that holds the scene's arrays
+};
+
 struct Scene {
   std::string asset;  // path as given by the user
   std::vector<TriangleMesh> meshes;
@@ -85,6 +92,7 @@ struct Scene {
   std::optional<double> unit_scale;    // metres per unit where the format says so
   std::optional<std::string> up_axis;  // "+Y", "-Z", ... where the format says so
   std::shared_ptr<const void> storage;
+  ImportEffort effort;
 };
 
 }  // namespace scene_analyzer::mesh

@@ -150,8 +150,19 @@ void BatchRun::measure_geometry() {
     fill_geometry(target(mesh), totals_[mesh]);
     fill_topology(target(mesh), topology[mesh]);
   }
+  find_defects();
   if (degenerate_) list_degenerate();
   adjacency_.labels = {};  // components are counted: free them for the stages to come
+}
+
+void BatchRun::find_defects() {
+  gpu::Recorder recorder(stages_.device);
+  const auto chunks = stages_.defects.record(recorder, geometry_, adjacency_);
+  recorder.submit_and_wait();
+  std::vector<analysis::Defects> defects = defects::read_defects(stages_.device, geometry_, chunks);
+  for (std::size_t mesh = 0; mesh < defects.size(); ++mesh) target(mesh).defects = std::move(defects[mesh]);
+  geometry_.representative = {};  // nobody else looks at vertices one by one
+  geometry_.referenced = {};
 }
 
 void BatchRun::list_degenerate() {

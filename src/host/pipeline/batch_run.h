@@ -44,6 +44,7 @@ class BatchRun {
   bool wants(analysis::Metric metric) const { return metrics_.test(analysis::index_of(metric)); }
 
   void measure_geometry();
+  void find_defects();
   void list_degenerate();
   void search_signals();
   void find_planar_groups();

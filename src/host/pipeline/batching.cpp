@@ -44,7 +44,7 @@ bool fits(const geometry::Batch& batch, const mesh::TriangleMesh& mesh, const gp
 std::uint64_t memory_needed(std::uint64_t vertices, std::uint64_t triangles) {
   // Positions and corners are there throughout. The peak is either while vertices are welded and half-edges
   // matched, or while areas are sorted into classes.
-  const std::uint64_t while_matching = 24 * vertices + 52 * triangles;
+  const std::uint64_t while_matching = 25 * vertices + 52 * triangles;
   const std::uint64_t while_sorting = 12 * vertices + 96 * triangles;
   return std::max(while_matching, while_sorting) + (std::uint64_t{1} << 20);
 }

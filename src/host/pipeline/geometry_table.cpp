@@ -5,7 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
+#include <string_view>
 #include <utility>
+
+#include "analysis_file/hash.h"
 
 namespace scene_analyzer::pipeline {
 namespace {
@@ -40,9 +44,21 @@ std::optional<double> similarity_scale_squared(const mesh::Matrix4& world) {
   return squared;
 }
 
+std::array<std::uint64_t, 2> shape_hash(const mesh::TriangleMesh& mesh) {
+  const auto bytes = [](const auto& values) {
+    const auto all = std::as_bytes(values);
+    return std::string_view(reinterpret_cast<const char*>(all.data()), all.size());
+  };
+  analysis_file::Hasher hasher;
+  hasher.add(bytes(mesh.indices));
+  hasher.add(bytes(mesh.positions));
+  return hasher.digest();
+}
+
 GeometryTable make_geometry_table(const mesh::Scene& scene) {
   GeometryTable table;
   std::map<Key, std::uint32_t> known;
+  std::vector<std::optional<std::array<std::uint64_t, 2>>> hashes(scene.meshes.size());
   for (const mesh::Instance& instance : scene.instances) {
     const std::optional<double> scale = similarity_scale_squared(instance.world);
     const mesh::Matrix3 linear = scale ? mesh::kIdentity3 : linear_part(instance.world);
@@ -52,7 +68,13 @@ GeometryTable make_geometry_table(const mesh::Scene& scene) {
       analysis::GeometryAnalysis geometry;
       geometry.mesh = instance.mesh;
       geometry.linear = linear;
-      geometry.source_triangles = scene.meshes[instance.mesh].triangle_count();
+      const mesh::TriangleMesh& mesh = scene.meshes[instance.mesh];
+      geometry.source_triangles = mesh.triangle_count();
+      if (geometry.source_triangles > 0) {
+        auto& hash = hashes[instance.mesh];  // several linear parts may share it
+        if (!hash) hash = shape_hash(mesh);
+        geometry.shape_hash = hash;
+      }
       table.geometries.push_back(std::move(geometry));
     }
     table.instances.push_back({.geometry = entry->second,

@@ -16,9 +16,10 @@ mesh::Matrix3 linear_part(const mesh::Matrix4& world);
 
 // The scene's instances in order, and the distinct (mesh, linear part) pairs that they need, in order of
 // first use. Instances under similarities share the pair (mesh, identity) and carry s^2; others have a pair
-// of their own per linear part, compared bit by bit. Bounds are left absent. Cost: n log n in instances.
+// of their own per linear part, compared bit by bit. Bounds are left absent. Cost: n log n in instances, and
+// every mesh is hashed once.
 struct GeometryTable {
-  std::vector<analysis::GeometryAnalysis> geometries;  // mesh, linear and source_triangles filled
+  std::vector<analysis::GeometryAnalysis> geometries;  // mesh, linear, shape_hash, source_triangles filled
   std::vector<analysis::InstanceAnalysis> instances;
 };
 GeometryTable make_geometry_table(const mesh::Scene& scene);

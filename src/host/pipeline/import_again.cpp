@@ -36,7 +36,7 @@ mesh::Scene import_again(const analysis::AssetAnalysis& analysis, const import::
   add_row_to_empty(scene);
   if (!is_what_was_analysed(scene, analysis))
     throw InputError(
-        fmt::format("{}: it has changed since it was analysed a moment ago; try again", analysis.asset));
+        fmt::format("{}: it has changed since it was analysed; analyse it again", analysis.asset));
   return scene;
 }
 

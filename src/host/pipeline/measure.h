@@ -63,7 +63,7 @@ class Measurer {
 
   // A geometry beyond a limit of the device gets `not_analysed` with need and limit, one whose signal alone
   // is beyond a limit `no_fourier_transform`. Throws gpu::DeviceLost. Cost: linear in triangles but for
-  // sorting areas; device memory under 200 bytes per triangle (about 250 where all edges have more than two
+  // sorting areas; device memory under 200 bytes per triangle (about 275 where all edges have more than two
   // triangles). The Fourier transform's start triangles are searched on all processors of the host, see
   // surface_distances/start_triangle.h for cost and memory there.
   void measure(Measurement measurement);

@@ -15,7 +15,9 @@
 
 namespace scene_analyzer::pipeline {
 
-// Of an asset's progress: where rendering times begin, and where they, or without them the measuring, end.
+// Of an asset's progress: where it is in memory,
+inline constexpr double kImportEnds = 0.2;
+// where rendering times begin, and where they, or without them the measuring, end.
 inline constexpr double kTimingBegins = 0.4;
 inline constexpr double kTimingEnds = 0.95;
 
@@ -25,6 +27,13 @@ class PendingAnalysis {
   bool is_searching() const { return measurement_ && measurement_->is_searching(); }
   // Whether the asset could not be read or measured: Pipeline::finish will say why.
   bool has_failed() const { return !outcome_.error.empty(); }
+  // Whether it was imported and has meshes; else Pipeline::finish is all that is left to do.
+  bool has_something_to_measure() const { return computed_ && !has_failed() && !scene_.instances.empty(); }
+
+  const std::filesystem::path& asset() const { return asset_; }
+  // What its size says about memory and time; 0 where nothing was imported.
+  std::uint64_t scene_bytes() const { return scene_.effort.answer_bytes; }
+  std::uint64_t triangles() const;
 
   // Its parts refer to each other.
   PendingAnalysis(const PendingAnalysis&) = delete;
@@ -32,6 +41,7 @@ class PendingAnalysis {
 
  private:
   friend class Pipeline;
+  friend class PendingPack;
   PendingAnalysis(std::filesystem::path asset, Progress report)
       : asset_(std::move(asset)), progress_(std::move(report)) {}
   // The search for start triangles may end before or after rendering is timed: progress never falls.
@@ -45,6 +55,7 @@ class PendingAnalysis {
   double done_ = 0;
   Outcome outcome_;
   mesh::Scene scene_;
+  analysis::MetricSet wanted_;
   bool computed_ = false;  // not read from the analysis file
   bool unchanged_ = true;  // while it was read
   DegenerateTriangles degenerate_;

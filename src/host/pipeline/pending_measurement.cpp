@@ -95,6 +95,7 @@ void PendingMeasurement::refuse(std::uint32_t index, const char* reason) {
   GeometryAnalysis untouched;
   untouched.mesh = geometry.mesh;
   untouched.linear = geometry.linear;
+  untouched.shape_hash = geometry.shape_hash;
   untouched.source_triangles = geometry.source_triangles;
   untouched.not_analysed = reason;
   geometry = std::move(untouched);

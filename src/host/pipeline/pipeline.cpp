@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 #include <system_error>
 #include <utility>
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
+#include "pipeline/attempt.h"
 #include "pipeline/messages.h"
 #include "pipeline/pending_analysis.h"
 
@@ -19,10 +19,6 @@ namespace fs = std::filesystem;
 using analysis::AssetAnalysis;
 using analysis::Metric;
 using analysis::MetricSet;
-
-// Share of an asset's progress that is over when the measuring begins, and when it ends.
-constexpr double kImported = 0.2;
-constexpr double kMeasured = kTimingEnds;
 
 MetricSet set_of(std::initializer_list<Metric> metrics) {
   MetricSet set;
@@ -59,6 +55,14 @@ bool has_something_to_draw(const AssetAnalysis& analysis) {
                              [](const auto& geometry) { return geometry.triangles > 0; });
 }
 
+// Of an older program, which did not look for defects or hash shapes.
+bool is_of_an_older_program(const AssetAnalysis& analysis) {
+  return std::ranges::any_of(analysis.geometries, [](const auto& geometry) {
+    return geometry.source_triangles > 0 &&
+           ((geometry.not_analysed.empty() && !geometry.defects) || !geometry.shape_hash);
+  });
+}
+
 // Times that are missing may be there on the next try.
 AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
   std::erase_if(analysis.timings, is_incomplete);
@@ -72,17 +76,14 @@ void add_empty_row(AssetAnalysis& analysis) {
   analysis.instances.assign(1, {});
 }
 
-// Runs a step of an asset's analysis; what is wrong with the asset goes into its outcome.
-void attempt(const fs::path& asset, Outcome& outcome, const std::function<void()>& step) {
-  try {
-    step();
-  } catch (const InputError& error) {
-    outcome.error = error.what();
-  } catch (const fs::filesystem_error& error) {
-    outcome.error = fmt::format("{}: {}", asset.string(), error.code().message());
-  } catch (const std::bad_alloc&) {
-    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.string());
-  }
+// Counted as the import does: a mesh is one, whatever transforms made of it.
+bool has_more_triangles(const AssetAnalysis& analysis, std::uint64_t limit) {
+  if (limit == 0) return false;
+  std::set<std::uint32_t> meshes;
+  std::uint64_t triangles = 0;
+  for (const auto& geometry : analysis.geometries)
+    if (meshes.insert(geometry.mesh).second) triangles += geometry.source_triangles;
+  return triangles > limit;
 }
 
 }  // namespace
@@ -97,6 +98,12 @@ Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
 }
 
 std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Progress& progress) {
+  auto pending = prepare(asset, progress);
+  if (pending->has_something_to_measure()) attempt(asset, pending->outcome_, [&] { measure(*pending); });
+  return pending;
+}
+
+std::unique_ptr<PendingAnalysis> Pipeline::prepare(const fs::path& asset, const Progress& progress) {
   std::unique_ptr<PendingAnalysis> pending(new PendingAnalysis(
       asset, progress ? progress : [](double, const std::string&) {}));
   attempt(asset, pending->outcome_, [&] {
@@ -109,11 +116,15 @@ std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Pr
 }
 
 Outcome Pipeline::finish(std::unique_ptr<PendingAnalysis> pending) {
-  Outcome& outcome = pending->outcome_;
-  attempt(pending->asset_, outcome, [&] {
+  return finish(*pending);
+}
+
+Outcome Pipeline::finish(PendingAnalysis& pending) {
+  Outcome& outcome = pending.outcome_;
+  attempt(pending.asset_, outcome, [&] {
     if (!outcome.error.empty()) return;
-    if (pending->measurement_) pending->measurement_->finish();
-    if (pending->computed_ && options_.use_analysis_files) store(*pending);
+    if (pending.measurement_) pending.measurement_->finish();
+    if (pending.computed_ && options_.use_analysis_files) store(pending);
     keep_wanted_timings(*outcome.analysis);
     describe(*outcome.analysis, outcome.messages);
   });
@@ -133,10 +144,12 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
     return false;
   }
   auto& stored = std::get<AssetAnalysis>(loaded);
+  if (has_more_triangles(stored, options_.import_limits.triangles)) return false;  // the import refuses it
   const MetricSet untimed = ~set_of({Metric::kRenderingTime});
   const auto* timing =
       wanted[kTiming] ? find_timing(stored.timings, timing_conditions(), options_.timing_budget) : nullptr;
-  if (!covers(stored.computed, wanted & untimed) || options_.histograms || options_.signals ||
+  if (!covers(stored.computed, wanted & untimed) || is_of_an_older_program(stored) || options_.histograms ||
+      options_.signals ||
       (wanted[kTiming] && timing == nullptr && has_something_to_draw(stored) && can_time(outcome))) {
     // Computing only what is missing would lose what the next run may ask for; times are kept as they are.
     wanted |= stored.computed & kOptionalMetrics & untimed;
@@ -147,7 +160,7 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
   if (timing != nullptr) put_first(stored.timings, analysis::RenderTiming(*timing));
   stored.asset = pending.asset_.string();
   outcome.analysis = std::move(stored);
-  outcome.from_file = true;
+  outcome.from_file = outcome.kept = true;
   return true;
 }
 
@@ -157,6 +170,7 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   const FileState before = state_of(pending.asset_);
   pending.scene_ = import::import_asset(pending.asset_, options_.import_limits);
   const mesh::Scene& scene = pending.scene_;
+  pending.outcome_.import = scene.effort;
   AssetAnalysis& analysis = pending.outcome_.analysis.emplace();
   // Hashed now, not when it is stored: what is measured is what was read.
   if (options_.use_analysis_files) analysis.files = analysis_file::fingerprint(pending.asset_, scene.files);
@@ -170,13 +184,12 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   analysis.warnings = scene.warnings;
   // Times of the files as they were hashed for them, and of no others.
   if (analysis.files == pending.stored_files_) analysis.timings = std::move(pending.stored_timings_);
-  if (scene.instances.empty())
-    add_empty_row(analysis);
-  else
-    measure(pending, wanted);
+  pending.wanted_ = wanted;
+  if (scene.instances.empty()) add_empty_row(analysis);
 }
 
 void Pipeline::start_device() {
+  const std::lock_guard lock(device_mutex_);
   if (measurer_) return;
   gpu::Device& device = device_();
   device_info_ = &device.info();
@@ -186,18 +199,27 @@ void Pipeline::start_device() {
   gpu_ = &device;
 }
 
-void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
-  pending.report(kImported, "starting the device");
+void Pipeline::forget_device() {
+  const std::lock_guard lock(device_mutex_);
+  render_timer_.reset();
+  measurer_.reset();
+  gpu_ = nullptr;
+  device_info_ = nullptr;
+}
+
+void Pipeline::measure(PendingAnalysis& pending) {
+  const MetricSet wanted = pending.wanted_;
+  pending.report(kImportEnds, "starting the device");
   start_device();
   AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis.device = device_stamp_;
-  const double measured = wanted[kTiming] ? kTimingBegins : kMeasured;
+  const double measured = wanted[kTiming] ? kTimingBegins : kTimingEnds;
   Measurement measurement{.scene = pending.scene_,
                           .analysis = analysis,
                           .parameters = options_.parameters,
                           .metrics = wanted,
                           .progress = [&pending, measured](double fraction, const std::string& step) {
-                            pending.report(kImported + (measured - kImported) * fraction, step);
+                            pending.report(kImportEnds + (measured - kImportEnds) * fraction, step);
                           }};
   if (options_.histograms)
     measurement.histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
@@ -212,13 +234,17 @@ void Pipeline::measure(PendingAnalysis& pending, MetricSet wanted) {
       pending.degenerate_[geometry] = std::move(triangles);
     };
   pending.measurement_ = measurer_->start(std::move(measurement));
-  if (!wanted[kTiming]) return;
+  if (wanted[kTiming]) find_times(pending);
+}
+
+void Pipeline::find_times(PendingAnalysis& pending) {
+  AssetAnalysis& analysis = *pending.outcome_.analysis;
   if (const auto* stored = find_timing(analysis.timings, timing_conditions(), options_.timing_budget)) {
     put_first(analysis.timings, analysis::RenderTiming(*stored));
     return;
   }
   // Devices that share anything with the processors would be timed with the search beside them.
-  if (is_timed_alone()) std::exchange(pending.measurement_, nullptr)->finish();
+  if (is_timed_alone() && pending.measurement_) std::exchange(pending.measurement_, nullptr)->finish();
   time(pending);
 }
 
@@ -227,7 +253,7 @@ void Pipeline::store(PendingAnalysis& pending) {
   // What did not fit may fit on another device, or when other programs have ended: such a result is not the
   // asset's.
   if (is_beyond_a_limit(*outcome.analysis)) return;
-  pending.report(kMeasured, "writing the analysis file");
+  pending.report(kTimingEnds, "writing the analysis file");
   if (!pending.unchanged_) {
     outcome.messages.push_back(fmt::format("{}: the file changed while it was read; its analysis is not kept",
                                            pending.asset_.string()));
@@ -236,8 +262,10 @@ void Pipeline::store(PendingAnalysis& pending) {
   const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
   try {
     analysis_file::store(file, without_incomplete_timings(*outcome.analysis));
+    outcome.kept = true;
   } catch (const InputError& error) {
     // Results are as good as ever, only the next run takes as long as this one.
+    outcome.write_error = error.what();
     const fs::path folder = options_.cache_folder.value_or(file.parent_path());
     if (unwritable_folders_.insert(folder).second)
       outcome.messages.push_back(fmt::format("{}; analyses of this folder are not kept", error.what()));

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -49,13 +50,18 @@ struct Options {
 // What became of one asset. Exactly one of `analysis` and `error` is meaningful.
 struct Outcome {
   std::optional<analysis::AssetAnalysis> analysis;
-  std::string error;                  // names the file and the reason
-  bool from_file = false;             // the analysis file was valid
+  std::string error;                         // names the file and the reason
+  bool may_succeed_alone = false;            // with less going on beside it; where there is an error
+  bool from_file = false;                    // the analysis file was valid
+  bool kept = false;                         // the analysis file is there for the next run
+  std::string write_error;                   // why it could not be written, naming it; or empty
+  std::optional<mesh::ImportEffort> import;  // where it was not, and the import succeeded
   std::vector<std::string> messages;  // for the log, at warning level: analysis file stale, folder read-only,
                                       // import warnings, meshes beyond a limit
 };
 
 class PendingAnalysis;
+class PendingPack;
 
 class Pipeline {
  public:
@@ -75,24 +81,43 @@ class Pipeline {
   // Whether rendering is timed on a device that a search on the host would slow down.
   bool is_timed_alone() const;
 
+  // start() in two steps, for many assets. The first may be taken by several threads at the same time: reads
+  // the analysis file or imports the asset. Throws import::Stopped. Memory: the scene, until it is finished.
+  std::unique_ptr<PendingAnalysis> prepare(const std::filesystem::path& asset, const Progress& progress = {});
+  // The second, for one thread. A single asset is measured as by start(); the meshes of several share batches
+  // on the device, with the results that each would have had alone. All were made by prepare() of this
+  // pipeline; without Options::histograms and signals.
+  std::unique_ptr<PendingPack> start_pack(std::vector<std::unique_ptr<PendingAnalysis>> assets);
+  // In the order given.
+  std::vector<Outcome> finish_pack(std::unique_ptr<PendingPack> pack);
+
+  // After gpu::DeviceLost, when nothing is pending any more but what prepare() made: the next measurement
+  // asks for a device again.
+  void forget_device();
+
  private:
   // Whether a valid analysis file holds all `wanted` metrics. If it holds others only, they are added to
   // `wanted`.
   bool reuse(PendingAnalysis& pending, analysis::MetricSet& wanted);
   void compute(PendingAnalysis& pending, analysis::MetricSet wanted);
-  void measure(PendingAnalysis& pending, analysis::MetricSet wanted);
+  Outcome finish(PendingAnalysis& pending);
+  void measure(PendingAnalysis& pending);
+  void measure_together(PendingPack& pack);
+  void complete_together(PendingPack& pack);
   void store(PendingAnalysis& pending);
 
-  Options options_;
-  std::function<gpu::Device&()> device_;
-  // Makes what depends on the device.
+  const Options options_;
+  const std::function<gpu::Device&()> device_;
+  // Makes what depends on the device. The first to need it may be any thread.
   void start_device();
+  void find_times(PendingAnalysis& pending);
   void time(PendingAnalysis& pending);
   void keep_wanted_timings(analysis::AssetAnalysis& analysis);
   bool can_time(Outcome& outcome);  // says it in `outcome` when the device cannot
   // What rendering times have to be made under.
   analysis::RenderTiming::Conditions timing_conditions();
 
+  mutable std::mutex device_mutex_;  // while it is made; what is made of it stays until forget_device()
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<render_timing::RenderTimer> render_timer_;
   gpu::Device* gpu_ = nullptr;

@@ -13,6 +13,7 @@ namespace scene_analyzer::pipeline {
 using analysis::AssetAnalysis;
 
 bool Pipeline::is_timed_alone() const {
+  const std::lock_guard lock(device_mutex_);
   return options_.metrics[index_of(analysis::Metric::kRenderingTime)] && device_info_ != nullptr &&
          device_info_->type != gpu::DeviceType::kDiscrete;
 }

@@ -7,6 +7,7 @@
 #include "cooccurrence/area_classes.h"
 #include "cooccurrence/contrast.h"
 #include "cooccurrence/histogram.h"
+#include "defects/defect_finder.h"
 #include "geometry/geometry.h"
 #include "pipeline/measure.h"
 #include "planar_groups/planar_groups.h"
@@ -23,6 +24,7 @@ struct Measurer::Stages {
   primitives::RadixSort sort{device, scan};
   geometry::GeometryBuilder geometry{device};
   adjacency::AdjacencyBuilder adjacency{device, sort};
+  defects::DefectFinder defects{device};
   planar_groups::PlanarGroupBuilder planar{device, scan, sort};
   cooccurrence::AreaClassBuilder classes{device, scan, sort};
   cooccurrence::ContrastSummer contrast{device, scan};

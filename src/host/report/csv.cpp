@@ -1,5 +1,6 @@
 // csv.cpp — One line per mesh. Columns are the JSON fields; nested ones are joined by a dot, as in
-// ratings.distance, because `distance` (in world units) and the rating of that name both exist.
+// ratings.distance, because `distance` (in world units) and the rating of that name both exist. Lists of any
+// length, which are the places of defects, have no columns.
 #include "report/document.h"
 #include "report/terminal_text.h"
 
@@ -19,11 +20,18 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-// A mesh with every field that can be null filled in where that changes the columns: signal, rendering time
-// and bounds.
+ordered_json csv_row(const SceneReport& report, std::size_t index) {
+  ordered_json row = mesh_row(report, index);
+  if (!row["defects"].is_null()) row["defects"].erase("places");
+  return row;
+}
+
+// A mesh with every field that can be null filled in where that changes the columns: defects, signal,
+// rendering time and bounds.
 ordered_json full_shape() {
   analysis::AssetAnalysis asset;
   asset.geometries.emplace_back().signal = analysis::SignalSummary();
+  asset.geometries.back().defects.emplace();
   asset.instances.emplace_back().bounds = analysis::Bounds();
   SceneReport report;
   report.assets = std::span(&asset, 1);
@@ -31,7 +39,12 @@ ordered_json full_shape() {
   time.mean_ns = 1;
   report.rating.meshes.emplace_back().rendering_time = time;
   report.rating.timing.emplace();
-  return mesh_row(report, 0);
+  return csv_row(report, 0);
+}
+
+const ordered_json& shape() {
+  static const ordered_json shape = full_shape();
+  return shape;
 }
 
 void append_header(std::string& out, const ordered_json& shape, const std::string& name) {
@@ -65,15 +78,25 @@ void append_cells(std::string& out, const ordered_json& value, const ordered_jso
 
 }  // namespace
 
-std::string csv(const SceneReport& report) {
-  const ordered_json shape = full_shape();
+std::string csv_header() {
   std::string out;
-  append_header(out, shape, "");
+  append_header(out, shape(), "");
   out.back() = '\n';
-  for (std::size_t i = 0; i < report.rating.meshes.size(); ++i) {
-    append_cells(out, mesh_row(report, i), shape);
-    out.back() = '\n';
-  }
+  return out;
+}
+
+std::string csv_line(const SceneReport& report, std::size_t mesh, std::size_t number) {
+  ordered_json row = csv_row(report, mesh);
+  row["index"] = number;
+  std::string out;
+  append_cells(out, row, shape());
+  out.back() = '\n';
+  return out;
+}
+
+std::string csv(const SceneReport& report) {
+  std::string out = csv_header();
+  for (std::size_t i = 0; i < report.rating.meshes.size(); ++i) out += csv_line(report, i, i);
   return out;
 }
 

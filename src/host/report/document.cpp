@@ -103,6 +103,22 @@ ordered_json signal(const std::optional<analysis::SignalSummary>& summary, doubl
           {"searches", summary->searches}};
 }
 
+// Every kind, found or not. Places are triangles or vertices of the file's mesh.
+ordered_json defects(const std::optional<analysis::Defects>& found) {
+  if (!found) return nullptr;
+  ordered_json counts = ordered_json::object();
+  ordered_json places = ordered_json::object();
+  for (std::size_t kind = 0; kind < analysis::kDefectCount; ++kind) {
+    const auto defect = static_cast<analysis::Defect>(kind);
+    const std::string key(analysis::kDefectKeys[kind]);
+    const analysis::FoundDefect* one = found->find(defect);
+    counts[key] = one == nullptr ? 0 : one->count;
+    if (place_of(defect) == analysis::DefectPlace::kNone) continue;
+    places[key] = one == nullptr ? ordered_json::array() : ordered_json(one->places);
+  }
+  return {{"counts", std::move(counts)}, {"places", std::move(places)}};
+}
+
 // Per draw; null where nothing was measured.
 ordered_json rendering_time(const ratings::SceneRating& rating,
                             const std::optional<analysis::RenderingTime>& time) {
@@ -188,6 +204,7 @@ ordered_json mesh_row(const SceneReport& report, std::size_t index) {
   row["non_manifold_edges"] = or_null(geometry.non_manifold_edges);
   row["boundary_edges"] = or_null(geometry.boundary_edges);
   row["area_classes"] = or_null(geometry.area_classes);
+  row["defects"] = defects(geometry.defects);
   row["signal"] = signal(geometry.signal, instance.area_scale);
   row["rendering_time"] = rendering_time(report.rating, mesh.rendering_time);
   row["surface_area"] = known ? number(mesh.surface_area) : ordered_json();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "analysis/analysis.h"
 #include "ratings/ratings.h"
@@ -26,11 +28,21 @@ struct TableStyle {
 };
 
 std::string table(const SceneReport& report, const TableStyle& style);
+// Meshes that have defects, a line per kind: how many, the first places, what to do. A mesh that stands at
+// several places is listed once.
+std::string defect_table(const SceneReport& report, const TableStyle& style);
 std::string json(const SceneReport& report);  // UTF-8, two-space indent, trailing newline; deterministic
 std::string csv(const SceneReport& report);   // RFC 4180, header line, LF
+// The parts of csv(), for tables of more scenes than memory holds: its header, and the line of one mesh,
+// which is the one of that `number` in the whole table.
+std::string csv_header();
+std::string csv_line(const SceneReport& report, std::size_t mesh, std::size_t number);
 
 // Writes to a temporary name beside `path`, syncs, renames; "-" writes to standard output.
 // Throws InputError with the system's reason.
 void write_file(const std::filesystem::path& path, const std::string& contents);
+// The same in pieces: `produce` hands each to the sink, in order. What it throws leaves the old file.
+using Sink = std::function<void(std::string_view bytes)>;
+void write_file(const std::filesystem::path& path, const std::function<void(const Sink& sink)>& produce);
 
 }  // namespace scene_analyzer::report

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "report/gap_text.h"
+#include "report/mesh_names.h"
 #include "report/report.h"
 #include "report/terminal_text.h"
 
@@ -23,22 +23,6 @@ constexpr std::size_t kRatingWidth = 7;  // -0.1234
 constexpr std::size_t kNumbersWidth = 2 * (1 + kCountWidth) + (kMetricCount + 1) * (1 + kRatingWidth);
 // Before an R_ft whose start triangle is not proven; "~0.0917" fills a cell of an unsigned rating.
 constexpr std::string_view kOpenMark = "~";
-constexpr std::size_t kLeastNameWidth = 12;
-constexpr std::size_t kMostNameWidth = 64;  // one absurd name must not blow up every row
-
-// What stands before the names of an asset's meshes: nothing for a single asset, else its file name, or its
-// path where two assets have that file name.
-std::vector<std::string> asset_prefixes(std::span<const analysis::AssetAnalysis> assets) {
-  std::vector<std::string> prefixes(assets.size());
-  if (assets.size() < 2) return prefixes;
-  std::unordered_map<std::string, int> uses;
-  for (const auto& asset : assets) ++uses[std::filesystem::path(asset.asset).filename().string()];
-  for (std::size_t i = 0; i < assets.size(); ++i) {
-    const std::string file = std::filesystem::path(assets[i].asset).filename().string();
-    prefixes[i] = (uses[file] > 1 ? assets[i].asset : file) + ": ";
-  }
-  return prefixes;
-}
 
 struct Row {
   std::u32string name;
@@ -54,10 +38,8 @@ std::vector<Row> rows_of(const SceneReport& report, std::size_t count) {
     const ratings::MeshRating& mesh = report.rating.meshes[i];
     const analysis::AssetAnalysis& asset = report.assets[mesh.asset];
     const InstanceAnalysis& instance = asset.instances.at(mesh.instance);
-    std::string name = instance.node.empty() ? instance.mesh : instance.node;
-    if (name.empty()) name = "(unnamed)";
-    rows.push_back({shortened(printable(prefixes[mesh.asset] + name), kMostNameWidth),
-                    &asset.geometries.at(instance.geometry), &mesh});
+    rows.push_back(
+        {shown_name(prefixes[mesh.asset], instance), &asset.geometries.at(instance.geometry), &mesh});
   }
   return rows;
 }
@@ -68,11 +50,6 @@ std::size_t name_width(const std::vector<Row>& rows, std::size_t terminal) {
   if (terminal == 0) return widest;
   const std::size_t left = terminal > kNumbersWidth ? terminal - kNumbersWidth : 0;
   return std::clamp(left, kLeastNameWidth, widest);
-}
-
-std::string padded_name(std::u32string_view name, std::size_t width) {
-  const std::u32string fitting = shortened(name, width);
-  return encode_utf8(fitting) + std::string(width - columns(fitting), ' ');
 }
 
 std::string rating_text(const std::optional<double>& rating) {
@@ -128,10 +105,6 @@ void append_row(std::string& out, const Row& row, std::size_t width, const Scene
   }
   append_rating(out, row.rating->aggregate, style);
   out += '\n';
-}
-
-std::string plural(std::uint64_t count, std::string_view singular, std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? singular : many);
 }
 
 // What the mark beside an R_ft means, in lines that fit wherever a row does; nothing where no mesh has it.

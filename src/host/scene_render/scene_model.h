@@ -43,23 +43,27 @@ class SceneModel {
   std::uint64_t bytes() const { return bytes_; }
   std::uint64_t triangles() const { return triangles_; }  // of all meshes, each once
 
+  // All instances of `other` follow those that are here. Cost: none per triangle.
+  void append(SceneModel&& other);
+
  private:
   friend class SceneModelBuilder;
   friend class SceneRenderer;
 
   // Where a mesh lies in `pages_[page]`; an absent part is none of it.
   struct Slot {
-    std::uint32_t page = 0;
+    std::size_t page = 0;
     std::uint64_t positions = 0;  // bytes
     std::optional<std::uint64_t> normals, texture_positions;
     std::optional<std::uint32_t> first_index;
-    std::uint32_t corners = 0;
+    std::uint32_t corners = 0;       // 0: nothing is drawn
     mesh::Vector3 center{}, half{};  // of its box, as in the file
     double radius = 1;
     std::array<double, 2> texture_low{}, texture_range{};
   };
   struct GroupSlot {
-    std::uint32_t page = 0, first = 0;  // byte within group_pages_[page]
+    std::size_t page = 0;
+    std::uint32_t first = 0;  // byte within group_pages_[page]
   };
 
   std::vector<gpu::Buffer> pages_;
@@ -69,32 +73,6 @@ class SceneModel {
   std::vector<gpu::Texture> textures_;
   std::vector<Instance> instances_;
   std::uint64_t bytes_ = 0, triangles_ = 0;
-};
-
-class SceneModelBuilder {
- public:
-  explicit SceneModelBuilder(gpu::Device& device) : device_(device) {}
-
-  // Appends all instances of `scene`, which may be gone afterwards. `groups`: empty, or per instance its
-  // triangles' groups, null where they are not known. Textures without pixels are left out. Throws
-  // gpu::OutOfMemory. Cost: linear in the scene; memory on the host some 64 MiB besides one mesh.
-  void add(const mesh::Scene& scene, std::span<const GroupShades* const> groups = {});
-
-  SceneModel finish();
-
- private:
-  std::uint32_t add_mesh(const mesh::TriangleMesh& mesh, bool textured);
-  std::optional<std::uint32_t> add_groups(const GroupShades& groups);
-  void add_textures(const mesh::Scene& scene);
-  std::uint64_t append(std::span<const std::uint32_t> words);
-  void flush_page();
-  void flush_groups();
-
-  gpu::Device& device_;
-  SceneModel model_;
-  std::vector<std::uint32_t> page_;            // of the page that is filled
-  GroupShades group_page_;                     //
-  std::vector<std::uint32_t> texture_number_;  // of the scene being added; kNone: it cannot be shown
 };
 
 }  // namespace scene_analyzer::scene_render

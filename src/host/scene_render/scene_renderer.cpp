@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 // Generated:
@@ -18,6 +19,7 @@ using ratings::Rgb;
 constexpr gpu::VertexFormat kInputs[] = {gpu::VertexFormat::kFloat3, gpu::VertexFormat::kUint1,
                                          gpu::VertexFormat::kUnorm16x2};
 constexpr Rgb kNoColorGrey = {0.8, 0.8, 0.8}, kEdgeInk = {0, 0, 0};
+constexpr double kEdgeOpacity = 0.6, kRoomyTriangle = 6;  // pixels, from which on edges have it
 // In distances from eye to target. Depths lose nothing by it, see scene_mesh.vert.
 constexpr double kNearest = 1e-7;
 // The normal 0, and the texture's first corner.
@@ -76,6 +78,16 @@ double distance_of(const std::array<double, 12>& matrix) {
   return matrix[3] * matrix[3] + matrix[7] * matrix[7] + matrix[11] * matrix[11];
 }
 
+// About how many pixels the mesh covers, where it is small or in full view.
+double pixels_of(const std::array<double, 12>& matrix, const Camera& camera, std::uint32_t height) {
+  double across = 0;  // mean half extent along the mesh's own axes, in the view
+  for (std::size_t column = 0; column < 3; ++column)
+    across += std::hypot(matrix[column], matrix[4 + column], matrix[8 + column]) / 3;
+  const double radius =
+      across / std::max(std::sqrt(distance_of(matrix)), kNearest) / camera.tangent * height / 2;
+  return std::numbers::pi * radius * radius;
+}
+
 }  // namespace
 
 SceneRenderer::SceneRenderer(gpu::Device& device, std::uint32_t samples)
@@ -124,7 +136,8 @@ void SceneRenderer::set_group_colors(ratings::ColorMap map) {
 }
 
 void SceneRenderer::record_instance(gpu::Recorder& recorder, const SceneModel& model, std::size_t index,
-                                    const Look& look, const Camera& camera, double aspect) const {
+                                    const Look& look, const Camera& camera,
+                                    const gpu::RenderTarget& target) const {
   const SceneModel::Instance& instance = model.instance(index);
   const SceneModel::Slot& slot = model.slots_[instance.mesh];
   const bool groups = look.fill == Look::Fill::kGroups && instance.groups && can_draw_groups();
@@ -133,6 +146,7 @@ void SceneRenderer::record_instance(gpu::Recorder& recorder, const SceneModel& m
   SceneDrawParams params{};
   std::transform(matrix.begin(), matrix.end(), params.view_from_mesh.begin(),
                  [](double entry) { return static_cast<float>(entry); });
+  const double aspect = static_cast<double>(target.width()) / target.height();
   params.projection = {static_cast<float>(1 / (camera.tangent * aspect)),
                        static_cast<float>(1 / camera.tangent), static_cast<float>(kNearest),
                        static_cast<float>(camera.middle[0]), static_cast<float>(camera.middle[1])};
@@ -169,13 +183,16 @@ void SceneRenderer::record_instance(gpu::Recorder& recorder, const SceneModel& m
     draw.texture = instance.texture ? &model.textures_[*instance.texture] : &white_;
     recorder.draw(pipelines.meshes, params, draw);
   }
-  if (look.edges && can_draw_edges()) record_edges(recorder, draw, params);
+  if (!look.edges || !can_draw_edges()) return;
+  const double pixels = pixels_of(matrix, camera, target.height());
+  record_edges(recorder, draw, params, pixels / (slot.corners / 3.0));
 }
 
-void SceneRenderer::record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw draw,
-                                 SceneDrawParams params) const {
+void SceneRenderer::record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw draw, SceneDrawParams params,
+                                 double pixels_per_triangle) const {
   draw.texture = &white_;
-  params.color = pack(kEdgeInk, 0.6);
+  // Where triangles are smaller than their edges, these would hide everything.
+  params.color = pack(kEdgeInk, kEdgeOpacity * std::clamp(pixels_per_triangle / kRoomyTriangle, 0.01, 1.0));
   params.flags = interface::scene_render::kUnlit;
   recorder.draw(translucent_.edges, params, draw);
 }
@@ -183,7 +200,6 @@ void SceneRenderer::record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw dr
 void SceneRenderer::record(gpu::Recorder& recorder, const gpu::RenderTarget& target, const SceneModel& model,
                            const Camera& camera, std::span<const Look> looks) const {
   const std::array<double, 12> view = view_matrix(camera);
-  const double aspect = static_cast<double>(target.width()) / target.height();
   std::vector<std::size_t> opaque;
   std::vector<std::pair<double, std::size_t>> translucent;  // minus the distance: the farthest first
   for (std::size_t i = 0; i < model.size(); ++i) {
@@ -198,22 +214,18 @@ void SceneRenderer::record(gpu::Recorder& recorder, const gpu::RenderTarget& tar
   std::sort(translucent.begin(), translucent.end());
   recorder.clear(target, kBackground, 0);
   recorder.begin_rendering(target);
-  for (const std::size_t i : opaque) record_instance(recorder, model, i, looks[i], camera, aspect);
-  for (const auto& [distance, i] : translucent) record_instance(recorder, model, i, looks[i], camera, aspect);
+  for (const std::size_t i : opaque) record_instance(recorder, model, i, looks[i], camera, target);
+  for (const auto& [distance, i] : translucent) record_instance(recorder, model, i, looks[i], camera, target);
   recorder.end_rendering();
 }
 
 Picture SceneRenderer::draw(const SceneModel& model, const Camera& camera, std::span<const Look> looks,
                             std::uint32_t width, std::uint32_t height) {
   const gpu::RenderTarget target = device_.make_render_target("scene", width, height, samples_);
-  const gpu::Buffer pixels = device_.make_vertex_buffer("pixels of the scene", target.color_bytes());
   gpu::Recorder recorder(device_);
   record(recorder, target, model, camera, looks);
-  recorder.copy_color(target, pixels);
   recorder.submit_and_wait();
-  Picture picture{width, height, std::vector<std::uint8_t>(target.color_bytes())};
-  device_.download(pixels, 0, std::as_writable_bytes(std::span(picture.rgba)));
-  return picture;
+  return read_picture(device_, target);
 }
 
 }  // namespace scene_analyzer::scene_render

@@ -45,9 +45,9 @@ class SceneRenderer {
   };
   Pipelines make_pipelines(bool translucent);
   void record_edges(gpu::Recorder& recorder, gpu::Recorder::Draw draw,
-                    interface::scene_render::SceneDrawParams params) const;
+                    interface::scene_render::SceneDrawParams params, double pixels_per_triangle) const;
   void record_instance(gpu::Recorder& recorder, const SceneModel& model, std::size_t index, const Look& look,
-                       const Camera& camera, double aspect) const;
+                       const Camera& camera, const gpu::RenderTarget& target) const;
 
   gpu::Device& device_;
   std::uint32_t samples_;

@@ -20,6 +20,7 @@
 
 #include "gpu/error.h"
 #include "gpu/native.h"
+#include "gpu/vulkan_errors.h"
 
 namespace scene_analyzer::spectrum {
 
@@ -76,6 +77,19 @@ inline VkResult allocate_memory(VkfftHost& host, const VkMemoryAllocateInfo* inf
 inline void free_memory(VkfftHost& host, VkDeviceMemory block) {
   std::erase(host.memory, block);
   host.calls().vkFreeMemory(*host.native.device, block, nullptr);
+}
+
+// VkFFT has codes of its own for what fails, which do not tell a lack of memory from a defect.
+inline VkResult noted(VkfftHost& host, VkResult result) {
+  if (result >= VK_SUCCESS || host.failure) return result;
+  const std::string doing = "planning a Fourier transform";
+  if (result == VK_ERROR_DEVICE_LOST)
+    host.failure = std::make_exception_ptr(gpu::DeviceLost(gpu::device_lost_message(doing)));
+  if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
+      result == VK_ERROR_OUT_OF_POOL_MEMORY)
+    host.failure =
+        std::make_exception_ptr(gpu::OutOfMemory("the GPU driver ran out of memory while " + doing));
+  return result;
 }
 
 // Submits and waits, so that VkFFT's own waiting and resetting of the fence has nothing left to do.
@@ -142,36 +156,37 @@ class ClassicLocale {
 #define vkResetFences(device, count, fences) VK_SUCCESS
 #define vkUpdateDescriptorSets(device, count, writes, copies, copied) \
   update_descriptors(VKFFT_HOST, *(writes))
-#define vkCreateComputePipelines(device, cache, count, infos, allocator, made) \
-  VKFFT_CALL(vkCreateComputePipelines)                                         \
-  (device, *VKFFT_HOST.native.pipeline_cache.handle(), count, infos, allocator, made)
+#define VKFFT_NOTED(name, ...) noted(VKFFT_HOST, VKFFT_CALL(name)(__VA_ARGS__))
+#define vkCreateComputePipelines(device, cache, count, infos, allocator, made)                            \
+  VKFFT_NOTED(vkCreateComputePipelines, device, *VKFFT_HOST.native.pipeline_cache.handle(), count, infos, \
+              allocator, made)
 #define vkGetPhysicalDeviceProperties(device, out) \
   (*(out) = VKFFT_HOST.native.physical_device.getProperties())
 #define vkGetPhysicalDeviceMemoryProperties(device, out) \
   (*(out) = VKFFT_HOST.native.physical_device.getMemoryProperties())
 
-#define vkAllocateCommandBuffers VKFFT_CALL(vkAllocateCommandBuffers)
-#define vkAllocateDescriptorSets VKFFT_CALL(vkAllocateDescriptorSets)
-#define vkBeginCommandBuffer VKFFT_CALL(vkBeginCommandBuffer)
-#define vkBindBufferMemory VKFFT_CALL(vkBindBufferMemory)
+#define vkAllocateCommandBuffers(...) VKFFT_NOTED(vkAllocateCommandBuffers, __VA_ARGS__)
+#define vkAllocateDescriptorSets(...) VKFFT_NOTED(vkAllocateDescriptorSets, __VA_ARGS__)
+#define vkBeginCommandBuffer(...) VKFFT_NOTED(vkBeginCommandBuffer, __VA_ARGS__)
+#define vkBindBufferMemory(...) VKFFT_NOTED(vkBindBufferMemory, __VA_ARGS__)
 #define vkCmdBindDescriptorSets VKFFT_CALL(vkCmdBindDescriptorSets)
 #define vkCmdBindPipeline VKFFT_CALL(vkCmdBindPipeline)
 #define vkCmdCopyBuffer VKFFT_CALL(vkCmdCopyBuffer)
 #define vkCmdDispatch VKFFT_CALL(vkCmdDispatch)
 #define vkCmdPipelineBarrier VKFFT_CALL(vkCmdPipelineBarrier)
 #define vkCmdPushConstants VKFFT_CALL(vkCmdPushConstants)
-#define vkCreateDescriptorPool VKFFT_CALL(vkCreateDescriptorPool)
-#define vkCreateDescriptorSetLayout VKFFT_CALL(vkCreateDescriptorSetLayout)
-#define vkCreatePipelineLayout VKFFT_CALL(vkCreatePipelineLayout)
-#define vkCreateShaderModule VKFFT_CALL(vkCreateShaderModule)
+#define vkCreateDescriptorPool(...) VKFFT_NOTED(vkCreateDescriptorPool, __VA_ARGS__)
+#define vkCreateDescriptorSetLayout(...) VKFFT_NOTED(vkCreateDescriptorSetLayout, __VA_ARGS__)
+#define vkCreatePipelineLayout(...) VKFFT_NOTED(vkCreatePipelineLayout, __VA_ARGS__)
+#define vkCreateShaderModule(...) VKFFT_NOTED(vkCreateShaderModule, __VA_ARGS__)
 #define vkDestroyDescriptorPool VKFFT_CALL(vkDestroyDescriptorPool)
 #define vkDestroyDescriptorSetLayout VKFFT_CALL(vkDestroyDescriptorSetLayout)
 #define vkDestroyPipeline VKFFT_CALL(vkDestroyPipeline)
 #define vkDestroyPipelineLayout VKFFT_CALL(vkDestroyPipelineLayout)
 #define vkDestroyShaderModule VKFFT_CALL(vkDestroyShaderModule)
-#define vkEndCommandBuffer VKFFT_CALL(vkEndCommandBuffer)
+#define vkEndCommandBuffer(...) VKFFT_NOTED(vkEndCommandBuffer, __VA_ARGS__)
 #define vkFreeCommandBuffers VKFFT_CALL(vkFreeCommandBuffers)
 #define vkGetBufferMemoryRequirements VKFFT_CALL(vkGetBufferMemoryRequirements)
-#define vkMapMemory VKFFT_CALL(vkMapMemory)
+#define vkMapMemory(...) VKFFT_NOTED(vkMapMemory, __VA_ARGS__)
 #define vkUnmapMemory VKFFT_CALL(vkUnmapMemory)
 // NOLINTEND(bugprone-macro-parentheses)

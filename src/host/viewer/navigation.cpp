@@ -71,10 +71,15 @@ Navigation::Navigation() {
   show_all({.min = {-1, -1, -1}, .max = {1, 1, 1}}, 1);
 }
 
-void Navigation::show_all(const Bounds& scene, double aspect) {
+void Navigation::extend(const Bounds& scene) {
   const Box box = box_of(scene);
   scene_middle_ = box.middle;
   scene_size_ = box.size;
+  keep_within_limits();
+}
+
+void Navigation::show_all(const Bounds& scene, double aspect) {
+  extend(scene);
   // The direction is the same for all scenes; this one has no rounding.
   const Vector3 direction = ratings::default_eye({.min = {-1, -1, -1}, .max = {1, 1, 1}});
   azimuth_ = std::atan2(direction[0], direction[2]);

@@ -30,6 +30,8 @@ class Navigation {
   // on: its size limits how far away the target and the eye may go (1000 times its diagonal). `aspect` is the
   // window's width / height, cut to 0.01 to 100.
   void show_all(const analysis::Bounds& scene, double aspect);
+  // The scene has grown to this box: the limits follow, the view stays.
+  void extend(const analysis::Bounds& scene);
   // The whole box, a part of the scene, is in view, from the direction that the camera has.
   void frame(const analysis::Bounds& box, double aspect);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pictures/legend.h"
+#include "viewer/panel_style.h"
 
 namespace scene_analyzer::viewer {
 namespace {
@@ -44,10 +45,14 @@ void draw_legend(const ReviewedScene& scene, const ReviewState& state) {
   }
   ImGui::Dummy({width, height});
   if (legend.ticks.empty()) return;
-  ImGui::TextUnformatted(legend.ticks.front().second.c_str());
-  const std::string& last = legend.ticks.back().second;
-  ImGui::SameLine(std::max(0.0F, ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(last.c_str()).x));
-  ImGui::TextUnformatted(last.c_str());
+  const char *first = legend.ticks.front().second.c_str(), *last = legend.ticks.back().second.c_str();
+  ImGui::TextUnformatted(first);
+  const float last_width = ImGui::CalcTextSize(last).x;
+  // Side by side where there is room, else one below the other.
+  const float place = std::max(0.0F, ImGui::GetWindowContentRegionMax().x - last_width);
+  if (ImGui::CalcTextSize(first).x + last_width + ImGui::GetFontSize() < width) ImGui::SameLine(place);
+  ImGui::SetCursorPosX(place);
+  ImGui::TextUnformatted(last);
   for (const std::string& line : legend.lines) ImGui::TextWrapped("%s", line.c_str());
 }
 
@@ -75,40 +80,20 @@ void draw_map_choice(ReviewState& state) {
   ImGui::EndCombo();
 }
 
-void draw_selected(const ReviewedScene& scene, std::size_t row) {
-  const analysis::GeometryAnalysis& geometry = scene.geometry(row);
-  const ratings::MeshRating& mesh = scene.rating().meshes[row];
-  ImGui::Separator();
-  ImGui::TextWrapped("%s", scene.name(row).c_str());
-  const auto line = [](const char* name, const std::string& value) {
-    ImGui::Text("%-28s %s", name, value.c_str());
-  };
-  line("triangles", std::to_string(geometry.triangles));
-  if (geometry.planar_groups) line("planar groups", std::to_string(*geometry.planar_groups));
-  if (geometry.components) line("connected parts", std::to_string(*geometry.components));
-  line("surface area", fmt::format("{:.6g}", mesh.surface_area));
-  for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
-    line(std::string(analysis::kMetricNames[i]).c_str(), number_or_dash(mesh.ratings[i]));
-  line("aggregate", number_or_dash(mesh.aggregate));
-}
-
 }  // namespace
 
 bool Panels::draw(const ReviewedScene& scene, ReviewState& state, const Status& status) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float width = std::min(330.0F * ImGui::GetFontSize() / 15, size.x / 2);
+  const float width = panel_width();
   share_ = size.x > 0 ? width / size.x : 0;
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({width, size.y});
-  ImGui::SetNextWindowBgAlpha(0.85F);
+  ImGui::SetNextWindowBgAlpha(kPanelOpacity);
   bool show_selected = false;
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNavInputs;
-  if (ImGui::Begin("review", nullptr, kFixed)) {
+  if (ImGui::Begin("review", nullptr, kPanelFlags)) {
     draw_status(status);
     if (scene.is_ready()) {
       draw_metrics(scene, state, status);
-      if (state.selected) draw_selected(scene, *state.selected);
       ImGui::Separator();
       show_selected = draw_table(scene, state);
     }

@@ -66,8 +66,4 @@ fs::path write_ratings(const report::SceneReport& report, const fs::path& folder
   return write_numbered(folder, "scene-ratings-", ".csv", report::csv(report));
 }
 
-fs::path write_picture(std::string_view png, const fs::path& folder) {
-  return write_numbered(folder, "scene-picture-", ".png", png);
-}
-
 }  // namespace scene_analyzer::viewer

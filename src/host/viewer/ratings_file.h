@@ -23,7 +23,4 @@ std::filesystem::path write_numbered(const std::filesystem::path& folder, std::s
 // report::csv() as scene-ratings-1.csv, scene-ratings-2.csv, ...; returns and throws as above.
 std::filesystem::path write_ratings(const report::SceneReport& report, const std::filesystem::path& folder);
 
-// The bytes of a PNG file as scene-picture-1.png, ...; the same.
-std::filesystem::path write_picture(std::string_view png, const std::filesystem::path& folder);
-
 }  // namespace scene_analyzer::viewer

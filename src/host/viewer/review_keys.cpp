@@ -98,7 +98,8 @@ void add_commands(std::vector<KeyBinding>& table) {
   add(Key::kHome, "Home", "show the whole scene", Command::kFrameAll);
   add(Key::kF, "f", "show the selected mesh", Command::kFrameSelected);
   add(Key::kP, "p", "write all current ratings to a file", Command::kWriteRatings);
-  add(Key::kF9, "F9", "write the picture to a file", Command::kScreenshot);
+  add(Key::kF8, "F8", "write the window, panels included, to a file", Command::kPictureOfWindow);
+  add(Key::kF9, "F9", "write the scene as a picture with a legend", Command::kPictureOfScene);
   add(Key::kF12, "F12", "print this list", Command::kPrintKeys);
   add(Key::kEscape, "Esc", "quit", Command::kQuit);
 }

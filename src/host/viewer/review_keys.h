@@ -48,7 +48,16 @@ enum class Key {
 };
 
 // What a key asks of the window, beyond what it changes itself.
-enum class Command { kNone, kQuit, kWriteRatings, kPrintKeys, kScreenshot, kFrameSelected, kFrameAll };
+enum class Command {
+  kNone,
+  kQuit,
+  kWriteRatings,
+  kPrintKeys,
+  kPictureOfScene,
+  kPictureOfWindow,
+  kFrameSelected,
+  kFrameAll
+};
 
 // One row of the table: a key has an effect of exactly one of three kinds.
 struct KeyBinding {

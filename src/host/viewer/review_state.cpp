@@ -27,6 +27,11 @@ ReviewState initial_state(analysis::MetricSet computed) {
   return state;
 }
 
+void extend(ReviewState& state, analysis::MetricSet computed) {
+  state.active |= computed & ~state.computed;
+  state.computed |= computed;
+}
+
 void toggle(ReviewState& state, Metric metric) {
   if (state.computed[index_of(metric)]) state.active.flip(index_of(metric));
 }

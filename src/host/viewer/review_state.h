@@ -31,6 +31,8 @@ struct ReviewState {
 
 // All metrics that were computed are on.
 ReviewState initial_state(analysis::MetricSet computed);
+// More of them are known now: those that are new are on, others stay as they are.
+void extend(ReviewState& state, analysis::MetricSet computed);
 
 // On for off and off for on, where the metric was computed.
 void toggle(ReviewState& state, analysis::Metric metric);

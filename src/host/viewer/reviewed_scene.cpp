@@ -1,10 +1,13 @@
 #include "viewer/reviewed_scene.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "base/version.h"
 
 namespace scene_analyzer::viewer {
 
-void ReviewedScene::add(const ReviewJob::Finished& asset) {
+void ReviewedScene::append(const ReviewJob::Finished& asset) {
   std::vector<const scene_render::GroupShades*> groups;
   for (const std::uint32_t geometry : asset.shades_of_instance) {
     const auto& shades = asset.shades[geometry];
@@ -14,9 +17,24 @@ void ReviewedScene::add(const ReviewJob::Finished& asset) {
   assets_.push_back(asset.analysis);
 }
 
-void ReviewedScene::finish() {
-  model_ = builder_.finish();
-  rate(options_);
+ReviewedScene::Arrived ReviewedScene::add(const std::vector<ReviewJob::Finished>& assets) {
+  Arrived arrived;
+  for (const ReviewJob::Finished& asset : assets) {
+    std::ranges::copy(asset.messages, std::back_inserter(arrived.messages));
+    if (asset.error.empty()) {
+      append(asset);
+      continue;
+    }
+    arrived.messages.push_back(asset.error);
+    arrived.all_good = false;
+  }
+  model_.append(builder_.finish());
+  std::ranges::move(builder_.take_warnings(), std::back_inserter(arrived.messages));
+  ratings::Options all = options_;
+  all.metrics.set();  // also those that nobody has asked for, as no mesh had them
+  rate(all);
+  note_computed();
+  return arrived;
 }
 
 void ReviewedScene::rate(const ratings::Options& options) {
@@ -24,12 +42,10 @@ void ReviewedScene::rate(const ratings::Options& options) {
   rating_ = ratings::rate(assets_, options_);
 }
 
-analysis::MetricSet ReviewedScene::computed() const {
-  analysis::MetricSet found;
+void ReviewedScene::note_computed() {
   for (const ratings::MeshRating& mesh : rating_.meshes)
     for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
-      if (mesh.ratings[i]) found.set(i);
-  return found;
+      if (mesh.ratings[i]) computed_.set(i);
 }
 
 const analysis::InstanceAnalysis& ReviewedScene::instance(std::size_t row) const {

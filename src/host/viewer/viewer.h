@@ -19,6 +19,7 @@ struct ViewerOptions {
   std::filesystem::path folder;    // where ratings and pictures are written; empty: the working folder
   std::function<void(const std::string&)> warn;   // messages for the terminal
   std::function<void(const std::string&)> print;  // what was asked for: keys
+  std::function<void(const std::string&)> tell;   // at the end: how fluently it moved
 };
 
 // Opens a window and returns when it was closed: whether all assets could be analysed. Idle, it draws

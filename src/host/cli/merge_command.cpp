@@ -1,0 +1,93 @@
+#include "cli/merge_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/library_progress.h"
+#include "cli/logging.h"
+#include "cli/merge_options.h"
+#include "cli/terminal.h"
+#include "library/merge.h"
+#include "report/report.h"
+
+namespace scene_analyzer::cli {
+namespace {
+
+std::optional<library::Merged> merge(const MergeRequest& request) {
+  std::vector<std::string> warnings;
+  try {
+    MergeStatus status(request.log != LogLevel::kQuiet);
+    library::Merged merged = library::merge(request.folder, request.merge, warnings,
+                                            [&](std::uint64_t done, std::uint64_t assets) {
+                                              check_interrupt();
+                                              status.update(done, assets);
+                                            });
+    for (const std::string& warning : warnings) log_warning(warning);
+    return merged;
+  } catch (const library::Incomplete& error) {
+    for (const std::string& line : error.lines()) log_error(line);
+    log_error(error.what());
+    return std::nullopt;
+  }
+}
+
+// Each output is tried: a full disk for one of them is no reason to lose the others.
+bool write_outputs(const MergeRequest& request, const library::Merged& merged) {
+  bool good = true;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const InputError& error) {
+      log_error(error.what());
+      good = false;
+    }
+  };
+  if (request.json)
+    attempt([&] {
+      report::write_file(*request.json, library::summary_json(request.folder, merged, request.top));
+    });
+  if (request.csv)
+    attempt([&] {
+      report::write_file(*request.csv, [&](const report::Sink& sink) {
+        library::write_csv(request.folder, merged, [&](std::string_view bytes) {
+          check_interrupt();
+          sink(bytes);
+        });
+      });
+    });
+  if (request.table())
+    attempt([&] {
+      const report::TableStyle style{.color = false, .width = terminal_width(STDOUT_FILENO), .max_rows = 0};
+      report::write_file("-", library::summary_table(request.folder, merged, request.top, style));
+    });
+  return good;
+}
+
+}  // namespace
+
+int merge_command(std::span<const std::string> arguments) {
+  const MergeRequest request = parse_merge(arguments);
+  if (request.help) {
+    fmt::print("{}", merge_help());
+    return kSuccess;
+  }
+  set_up_logging(request.log);
+  watch_interrupts();
+  const std::optional<library::Merged> merged = merge(request);
+  if (!merged) return kGateFailed;
+  if (merged->mixed_timings)
+    log_warning(
+        "rendering times were measured on different kinds of devices, which cannot be rated together; R_rt "
+        "stays empty. With batch --device all are measured on that device");
+  if (!merged->missing.empty()) log_warning(fmt::format("{} assets are missing", merged->missing.size()));
+  const bool written = write_outputs(request, *merged);
+  return written && merged->not_analysed.empty() ? kSuccess : kInputFailed;
+}
+
+}  // namespace scene_analyzer::cli

@@ -1,0 +1,12 @@
+// merge_command.h — `scene-analyzer merge`.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace scene_analyzer::cli {
+
+// Returns the exit code; throws what main() turns into one.
+int merge_command(std::span<const std::string> arguments);
+
+}  // namespace scene_analyzer::cli

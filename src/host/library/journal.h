@@ -1,0 +1,47 @@
+// journal.h — What became of the assets of a shard, written as it happens: nothing that was said is lost when
+// the process is killed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/file.h"
+#include "library/record.h"
+#include "library/shards.h"
+
+namespace scene_analyzer::library {
+
+// The latest record of each asset in all journals of a library's folder, and what could not be read.
+struct Journals {
+  std::map<std::string, Record> records;  // by asset
+  std::vector<std::string> warnings;
+};
+// Lines that are cut off, as a killed process leaves them, count as not written. Throws UsageError when the
+// folder cannot be searched.
+Journals read_journals(const std::filesystem::path& folder);
+
+class Journal {
+ public:
+  // Finds what earlier runs of the shard have left. Throws UsageError when the journal cannot be read or
+  // written.
+  Journal(const std::filesystem::path& folder, Shard shard);
+
+  const Record* find(const std::string& asset) const;
+  // Written at once; the latest record of an asset counts. Throws UsageError when the disk is full.
+  void add(Record record);
+  // Replaces the shard's journal by one of `assets`, in their order, and removes those of runs that are over.
+  // Throws UsageError.
+  void finish(std::span<const std::string> assets);
+
+ private:
+  std::filesystem::path folder_, file_, running_file_;
+  std::map<std::string, Record> records_;
+  std::vector<std::filesystem::path> leftovers_;  // of killed runs
+  std::optional<files::File> running_;
+};
+
+}  // namespace scene_analyzer::library

@@ -1,0 +1,59 @@
+// offenders.cpp — Which meshes of a library are the worst.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "base/error.h"
+#include "library/load_record.h"
+#include "library/merge.h"
+
+namespace scene_analyzer::library {
+namespace {
+
+using analysis::kMetricCount;
+
+std::optional<double> value_of(const Merged& merged, std::size_t mesh, std::size_t rating) {
+  return rating == kMetricCount ? merged.aggregates[mesh] : merged.ratings[mesh][rating];
+}
+
+void add_names(const std::filesystem::path& folder, const Merged& merged, std::vector<Offender>& offenders) {
+  for (Offender& offender : offenders) {
+    const MergedMesh& mesh = merged.meshes[offender.mesh];
+    const auto loaded = load_record(folder, merged.assets[mesh.asset], merged.manifest);
+    if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
+    const auto& instance = std::get<analysis::AssetAnalysis>(loaded).instances.at(mesh.instance);
+    offender.node = instance.node;
+    offender.name = instance.mesh;
+  }
+}
+
+}  // namespace
+
+std::vector<Offender> top_offenders(const std::filesystem::path& folder, const Merged& merged,
+                                    std::size_t rating, std::size_t count) {
+  std::vector<std::pair<double, std::size_t>> order;  // largest magnitude first, then as in the library
+  for (std::size_t mesh = 0; mesh < merged.meshes.size(); ++mesh)
+    if (const auto value = value_of(merged, mesh, rating)) order.emplace_back(-std::abs(*value), mesh);
+  std::ranges::sort(order);
+  std::vector<Offender> offenders;
+  std::map<std::pair<double, std::array<std::uint64_t, 2>>, std::size_t> listed;
+  for (const auto& [rank, mesh] : order) {
+    const double value = *value_of(merged, mesh, rating);
+    const auto known = listed.find({value, merged.meshes[mesh].shape_hash});
+    if (known != listed.end()) {
+      ++offenders[known->second].others;
+    } else if (offenders.size() < count) {
+      listed.emplace(std::pair(value, merged.meshes[mesh].shape_hash), offenders.size());
+      offenders.push_back({.mesh = mesh, .value = value, .others = 0, .node = {}, .name = {}});
+    } else if (offenders.empty() || rank > -std::abs(offenders.back().value)) {
+      break;  // no more of the same value
+    }
+  }
+  add_names(folder, merged, offenders);
+  return offenders;
+}
+
+}  // namespace scene_analyzer::library

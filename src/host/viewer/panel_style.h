@@ -1,0 +1,19 @@
+// panel_style.h — What the window's panels have in common.
+#pragma once
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace scene_analyzer::viewer {
+
+inline constexpr float kPanelOpacity = 0.85F;
+inline constexpr ImGuiWindowFlags kPanelFlags = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNavInputs;
+
+// For some 40 letters a line, at most half of the window. In the desktop's units.
+inline float panel_width() {
+  return std::min(22 * ImGui::GetFontSize(), ImGui::GetIO().DisplaySize.x / 2);
+}
+
+}  // namespace scene_analyzer::viewer
