@@ -33,36 +33,40 @@ constexpr const char* kExamples =
     "polygons_per_planar_group\n"
     "  scene-analyzer analyze --quiet --json - -- -odd-name.obj | jq '.meshes[].aggregate'\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options("scene-analyzer analyze", kPurpose);
-  options.custom_help("[OPTION...] ASSET...").set_width(110);
-  const auto text = [] { return cxxopts::value<std::string>(); };
+Options make_options() {
+  Options options("scene-analyzer analyze", kPurpose);
+  options.usage("[OPTION...] ASSET...");
   add_measuring_options(options);
-  options.add_options("Rating")(
-      "eye", "where the scene is seen from, world units; default a three-quarter view of the whole scene",
-      text(), "X,Y,Z")("weights",
-                       "share of each metric in the aggregate, at least 0, those not named 0; default 1 each",
-                       text(), "KEY=W,...")(
-      "relative", "map each metric from its range within the scene to its whole range before aggregating");
-  options.add_options("Output")("defects",
-                                "print a second table: what is wrong with each mesh (degenerate and "
-                                "duplicate triangles, holes, edges of "
-                                "more than two triangles, flipped neighbours, loose or mergeable vertices "
-                                "and more), how often, the first "
-                                "triangles or vertices to look at, counted from 0 in the file's mesh, and "
-                                "what to do about it. JSON and CSV "
-                                "always have these counts")(
-      "json", "write JSON to FILE, or to standard output in place of the table (-)", text(), "FILE|-")(
-      "csv", "write CSV to FILE, or to standard output in place of the table (-)", text(), "FILE|-")(
-      "histograms",
-      "write how often areas of triangles meet, per mesh a table (.csv) and a picture (.svg), into DIR; "
-      "computes even where an analysis file is valid",
-      text(), "DIR")("signals",
-                     "write what R_ft is computed from, per mesh the triangles' areas in their order and "
-                     "their spectrum as tables "
-                     "(-signal.csv, -spectrum.csv) and both as a picture (-signal.svg), into DIR; computes "
-                     "like --histograms",
-                     text(), "DIR");
+  options.add(
+      "Rating",
+      {
+          {"eye",
+           "where the scene is seen from, world units; default a three-quarter view of the whole scene",
+           "X,Y,Z"},
+          {"weights", "share of each metric in the aggregate, at least 0, those not named 0; default 1 each",
+           "KEY=W,..."},
+          {"relative",
+           "map each metric from its range within the scene to its whole range before aggregating"},
+      });
+  options.add("Output",
+              {
+                  {"defects",
+                   "print a second table: what is wrong with each mesh (degenerate and duplicate triangles, "
+                   "holes, edges of more than two triangles, flipped neighbours, loose or mergeable vertices "
+                   "and more), how often, the first triangles or vertices to look at, counted from 0 in the "
+                   "file's mesh, and what to do about it. JSON and CSV always have these counts"},
+                  {"json", "write JSON to FILE, or to standard output in place of the table (-)", "FILE|-"},
+                  {"csv", "write CSV to FILE, or to standard output in place of the table (-)", "FILE|-"},
+                  {"histograms",
+                   "write how often areas of triangles meet, per mesh a table (.csv) and a picture (.svg), "
+                   "into DIR; computes even where an analysis file is valid",
+                   "DIR"},
+                  {"signals",
+                   "write what R_ft is computed from, per mesh the triangles' areas in their order and their "
+                   "spectrum as tables (-signal.csv, -spectrum.csv) and both as a picture (-signal.svg), "
+                   "into DIR; computes like --histograms",
+                   "DIR"},
+              });
   add_picture_options(options);
   add_running_options(options);
   add_common_options(options);
@@ -101,7 +105,7 @@ void read_output(const CommandLine& line, AnalyzeRequest& request) {
 }  // namespace
 
 AnalyzeRequest parse_analyze(std::span<const std::string> arguments) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   AnalyzeRequest request;
   request.help = line.flag("help");

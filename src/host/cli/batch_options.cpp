@@ -46,24 +46,28 @@ constexpr const char* kBatchExitCodes =
     "  130, 143  stopped by Ctrl-C or a termination signal, within a second: the same command goes on from "
     "there\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options("scene-analyzer batch", kPurpose);
-  options.custom_help("[OPTION...] --out DIR LIBRARY...").set_width(110);
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Library")(
-      "out", "folder for analysis files and journal; several tasks may share it, also over a network", text(),
-      "DIR")("include",
-             "which files of folders are assets, in place of all with an extension that Assimp reads; * "
-             "stands for any characters, / included, and the path below the folder is looked at",
-             text(), "GLOB,...")("exclude", "which files of folders are no assets", text(), "GLOB,...")(
-      "jobs", "assets read at the same time, beside the measuring; default one per processor", text(), "N")(
-      "shard-index", "analyse only this part of the library, from 0; with --shard-count", text(), "I")(
-      "shard-count", "into how many parts of about the same size the library is cut", text(), "N")(
-      "shard",
-      "auto: take both from the scheduler: Slurm's job arrays (SLURM_ARRAY_TASK_ID and those beside it), "
-      "Kubernetes' Indexed Jobs (JOB_COMPLETION_INDEX, with SHARD_COUNT set to the completions), or "
-      "GTEST_SHARD_INDEX with GTEST_TOTAL_SHARDS",
-      text(), "auto");
+Options make_options() {
+  Options options("scene-analyzer batch", kPurpose);
+  options.usage("[OPTION...] --out DIR LIBRARY...");
+  options.add(
+      "Library",
+      {
+          {"out", "folder for analysis files and journal; several tasks may share it, also over a network",
+           "DIR"},
+          {"include",
+           "which files of folders are assets, in place of all with an extension that Assimp reads; * stands "
+           "for any characters, / included, and the path below the folder is looked at",
+           "GLOB,..."},
+          {"exclude", "which files of folders are no assets", "GLOB,..."},
+          {"jobs", "assets read at the same time, beside the measuring; default one per processor", "N"},
+          {"shard-index", "analyse only this part of the library, from 0; with --shard-count", "I"},
+          {"shard-count", "into how many parts of about the same size the library is cut", "N"},
+          {"shard",
+           "auto: take both from the scheduler: Slurm's job arrays (SLURM_ARRAY_TASK_ID and those beside "
+           "it), Kubernetes' Indexed Jobs (JOB_COMPLETION_INDEX, with SHARD_COUNT set to the completions), "
+           "or GTEST_SHARD_INDEX with GTEST_TOTAL_SHARDS",
+           "auto"},
+      });
   add_measuring_options(options);
   add_device_options(options);
   add_common_options(options);
@@ -118,7 +122,7 @@ unsigned read_jobs(const CommandLine& line) {
 }  // namespace
 
 BatchRequest parse_batch(std::span<const std::string> arguments, const library::Environment& environment) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   BatchRequest request;
   request.help = line.flag("help");

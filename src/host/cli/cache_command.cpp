@@ -26,18 +26,19 @@ constexpr const char* kExamples =
     "  scene-analyzer cache --prune --cache-dir ~/analyses --max-age 7\n"
     "  scene-analyzer cache --prune --cache-dir ~/analyses --max-size 500M\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options(
-      "scene-analyzer cache",
-      "Removes old analysis files below a folder, and then those not used for longest until the "
-      "rest is\nsmall enough. Only *.analysis files and leftovers of interrupted writes are "
-      "touched; what is removed is computed\nagain when it is needed.\n");
-  options.custom_help("--prune --cache-dir DIR [OPTION...]").set_width(110);
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Pruning")("prune", "do it")(
-      "cache-dir", "the folder that 'analyze --cache-dir' was given", text(), "DIR")(
-      "max-age", "remove files older than this, days, default 90", text(), "DAYS")(
-      "max-size", "keep at most this much, bytes or with K, M, G, T; default 1G", text(), "SIZE");
+Options make_options() {
+  Options options("scene-analyzer cache",
+                  "Removes old analysis files below a folder, and then those not used for longest until the "
+                  "rest is\nsmall enough. Only *.analysis files and leftovers of interrupted writes are "
+                  "touched; what is removed is computed\nagain when it is needed.\n");
+  options.usage("--prune --cache-dir DIR [OPTION...]");
+  options.add("Pruning",
+              {
+                  {"prune", "do it"},
+                  {"cache-dir", "the folder that 'analyze --cache-dir' was given", "DIR"},
+                  {"max-age", "remove files older than this, days, default 90", "DAYS"},
+                  {"max-size", "keep at most this much, bytes or with K, M, G, T; default 1G", "SIZE"},
+              });
   add_common_options(options);
   return options;
 }
@@ -55,7 +56,7 @@ std::filesystem::path folder_of(const CommandLine& line) {
 }  // namespace
 
 int cache_command(std::span<const std::string> arguments) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   if (line.flag("help")) {
     fmt::print("{}\n{}\n{}", options.help({"Pruning", "Messages"}), kExamples, kExitCodeHelp);

@@ -33,17 +33,19 @@ constexpr const char* kDetails =
     "  scene-analyzer devices --json | jq '.devices[] | select(.usable) | .name'\n"
     "  scene-analyzer devices --selftest --device llvmpipe\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options(
-      "scene-analyzer devices",
-      "Lists the Vulkan devices of this machine and why one cannot be used, or computes known "
-      "results on one.\n");
-  options.custom_help("[OPTION...]").set_width(110);
-  options.add_options("Listing")("json", "print JSON in place of the table");
-  options.add_options("Testing")(
-      "selftest", "measure built-in meshes whose results are known; exit code 2 if one is off")(
-      "device", "the device to test: index or part of the name; default the one marked *",
-      cxxopts::value<std::string>(), "D");
+Options make_options() {
+  Options options("scene-analyzer devices",
+                  "Lists the Vulkan devices of this machine and why one cannot be used, or computes known "
+                  "results on one.\n");
+  options.usage("[OPTION...]");
+  options.add("Listing", {
+                             {"json", "print JSON in place of the table"},
+                         });
+  options.add("Testing",
+              {
+                  {"selftest", "measure built-in meshes whose results are known; exit code 2 if one is off"},
+                  {"device", "the device to test: index or part of the name; default the one marked *", "D"},
+              });
   add_common_options(options);
   return options;
 }
@@ -151,7 +153,7 @@ int test_device(const std::string& selector) {
 }  // namespace
 
 int devices_command(std::span<const std::string> arguments) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   if (line.flag("help")) {
     fmt::print("{}\n{}\n{}", options.help({"Listing", "Testing", "Messages"}), kDetails, kExitCodeHelp);

@@ -20,51 +20,57 @@ std::string metric_help() {
       fmt::join(analysis::kMetricKeys, "\n  "));
 }
 
-void add_measuring_options(cxxopts::Options& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Measuring")(
-      "alpha", "planar groups: largest angle between neighbouring triangles, degrees in [0, 180], default 0",
-      text(), "DEG")("dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000",
-                     text(), "N")(
-      "steps", "rendering time: rotations about each axis, 1 to 256, default 8: 64 draws of every mesh",
-      text(), "N")("timing-size", "rendering time: size of the picture drawn, default 512x512", text(),
-                   "WxH")("timing-budget",
-                          "rendering time: seconds for all meshes of an asset together, default 30; less "
-                          "where the times are sure "
-                          "earlier",
-                          text(), "S")(
-      "start-searches",
-      "Fourier transform: most work on finding where the signal starts, the triangle farthest from all "
-      "others "
-      "of its part of the mesh; counted in walks over the whole part, at least 1, default 20000. Where the "
-      "work "
-      "ends before that triangle is proven, the table marks R_ft with ~ and names the gap: how much farther "
-      "another triangle may lie, at most. A larger N narrows it",
-      text(), "N")("weld-tolerance",
-                   "distance up to which vertices are one, in units of the file, at least 0, default 0",
-                   text(), "L")("metrics", "compute only these, default all", text(), "KEY,...");
+void add_measuring_options(Options& options) {
+  options.add(
+      "Measuring",
+      {
+          {"alpha",
+           "planar groups: largest angle between neighbouring triangles, degrees in [0, 180], default 0",
+           "DEG"},
+          {"dim", "co-occurrence: largest number of distinct areas, at least 2, default 20000", "N"},
+          {"steps", "rendering time: rotations about each axis, 1 to 256, default 8: 64 draws of every mesh",
+           "N"},
+          {"timing-size", "rendering time: size of the picture drawn, default 512x512", "WxH"},
+          {"timing-budget",
+           "rendering time: seconds for all meshes of an asset together, default 30; less where the times "
+           "are sure earlier",
+           "S"},
+          {"start-searches",
+           "Fourier transform: most work on finding where the signal starts, the triangle farthest from all "
+           "others of its part of the mesh; counted in walks over the whole part, at least 1, default 20000. "
+           "Where the work ends before that triangle is proven, the table marks R_ft with ~ and names the "
+           "gap: how much farther another triangle may lie, at most. A larger N narrows it",
+           "N"},
+          {"weld-tolerance",
+           "distance up to which vertices are one, in units of the file, at least 0, default 0", "L"},
+          {"metrics", "compute only these, default all", "KEY,..."},
+      });
 }
 
-void add_device_options(cxxopts::Options& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Running")(
-      "device", "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind",
-      text(), "D")(
-      "import-memory",
-      "memory that reading an asset may take, default 4G and 32 bytes per byte of the file, at most what the "
-      "machine has",
-      text(), "SIZE")("import-timeout", "seconds that reading an asset may take, default 120", text(), "S")(
-      "max-triangles",
-      "refuse assets of more triangles, those of a mesh counted once however often it is placed; default no "
-      "limit",
-      text(), "N");
+void add_device_options(Options& options) {
+  options.add(
+      "Running",
+      {
+          {"device",
+           "index or part of the name as printed by 'scene-analyzer devices'; default the fastest kind", "D"},
+          {"import-memory",
+           "memory that reading an asset may take, default 4G and 32 bytes per byte of the file, at most "
+           "what the machine has",
+           "SIZE"},
+          {"import-timeout", "seconds that reading an asset may take, default 120", "S"},
+          {"max-triangles",
+           "refuse assets of more triangles, those of a mesh counted once however often it is placed; "
+           "default no limit",
+           "N"},
+      });
 }
 
-void add_running_options(cxxopts::Options& options) {
+void add_running_options(Options& options) {
   add_device_options(options);
-  options.add_options("Running")("cache-dir", "keep analysis files below DIR, default beside each asset",
-                                 cxxopts::value<std::string>(),
-                                 "DIR")("no-cache", "neither read nor write analysis files");
+  options.add("Running", {
+                             {"cache-dir", "keep analysis files below DIR, default beside each asset", "DIR"},
+                             {"no-cache", "neither read nor write analysis files"},
+                         });
 }
 
 void read_measuring(const CommandLine& line, pipeline::Options& options) {

@@ -12,10 +12,10 @@
 namespace scene_analyzer::cli {
 
 // The groups "Measuring" and "Running" of the help.
-void add_measuring_options(cxxopts::Options& options);
-void add_running_options(cxxopts::Options& options);
+void add_measuring_options(Options& options);
+void add_running_options(Options& options);
 // Of "Running" what does not say where analysis files are kept.
-void add_device_options(cxxopts::Options& options);
+void add_device_options(Options& options);
 std::string metric_help();
 
 // All throw UsageError.

@@ -33,22 +33,26 @@ constexpr const char* kMergeExitCodes =
     "  2  wrong options, or an error of the program\n"
     "  3  some assets could not be analysed (the others are in the result), or a file could not be written\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options("scene-analyzer merge", kPurpose);
-  options.custom_help("[OPTION...] DIR").set_width(110);
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Rating")(
-      "weights",
-      "share of each metric in the aggregate, at least 0, those not named 0; default "
-      "1 each",
-      text(), "KEY=W,...")(
-      "relative", "map each metric from its range within the library to its whole range before aggregating")(
-      "allow-missing", "merge what is there, although assets are missing");
-  options.add_options("Output")("top", "meshes per rating, and shapes, that are listed; default 10", text(),
-                                "N")(
-      "json", "write the summary to FILE, or to standard output in its place (-)", text(), "FILE|-")(
-      "csv", "write a line per mesh, with the columns of analyze, to FILE or standard output (-)", text(),
-      "FILE|-");
+Options make_options() {
+  Options options("scene-analyzer merge", kPurpose);
+  options.usage("[OPTION...] DIR");
+  options.add(
+      "Rating",
+      {
+          {"weights", "share of each metric in the aggregate, at least 0, those not named 0; default 1 each",
+           "KEY=W,..."},
+          {"relative",
+           "map each metric from its range within the library to its whole range before aggregating"},
+          {"allow-missing", "merge what is there, although assets are missing"},
+      });
+  options.add(
+      "Output",
+      {
+          {"top", "meshes per rating, and shapes, that are listed; default 10", "N"},
+          {"json", "write the summary to FILE, or to standard output in its place (-)", "FILE|-"},
+          {"csv", "write a line per mesh, with the columns of analyze, to FILE or standard output (-)",
+           "FILE|-"},
+      });
   add_common_options(options);
   return options;
 }
@@ -61,7 +65,7 @@ void read_rating(const CommandLine& line, ratings::Options& options) {
 }  // namespace
 
 MergeRequest parse_merge(std::span<const std::string> arguments) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   MergeRequest request;
   request.help = line.flag("help");

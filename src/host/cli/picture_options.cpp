@@ -63,33 +63,37 @@ void read_content(const CommandLine& line, analysis::MetricSet metrics, pictures
 
 }  // namespace
 
-void add_picture_options(cxxopts::Options& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add_options("Pictures")("export",
-                                  "write the scene as binary glTF with the colours of ratings as vertex "
-                                  "colours, and ratings as extras of its "
-                                  "nodes, for any viewer or modelling program",
-                                  text(), "FILE.glb")(
-      "image", "draw the scene, every mesh in the colour of its rating, and write it to FILE", text(),
-      "FILE.png")(
-      "image-set",
-      "draw every metric, absolute and relative, the aggregate, the planar groups and the scene's "
-      "own colours, and write them into DIR",
-      text(), "DIR")("metric",
-                     "what the picture of --image shows: a metric, aggregate (default), or "
-                     "planar_groups: triangles by the size of their group",
-                     text(), "KEY")(
-      "colormap",
-      "thesis (default: green, yellow, red), viridis or cividis (readable with a colour vision deficiency), "
-      "coolwarm",
-      text(), "NAME")("size", "size of pictures, legend included, default 1280x720", text(), "WxH")(
-      "target",
-      "where pictures look at, world units, with a field of view of 45 degrees; default the middle of the "
-      "scene, all of it in view",
-      text(), "X,Y,Z")("emphasis",
-                       "extremes: meshes below the upper quarter of the scene's range become transparent, so "
-                       "that small and hidden ones are found",
-                       text(), "extremes");
+void add_picture_options(Options& options) {
+  options.add("Pictures",
+              {
+                  {"export",
+                   "write the scene as binary glTF with the colours of ratings as vertex colours, and "
+                   "ratings as extras of its nodes, for any viewer or modelling program",
+                   "FILE.glb"},
+                  {"image", "draw the scene, every mesh in the colour of its rating, and write it to FILE",
+                   "FILE.png"},
+                  {"image-set",
+                   "draw every metric, absolute and relative, the aggregate, the planar groups and the "
+                   "scene's own colours, and write them into DIR",
+                   "DIR"},
+                  {"metric",
+                   "what the picture of --image shows: a metric, aggregate (default), or planar_groups: "
+                   "triangles by the size of their group",
+                   "KEY"},
+                  {"colormap",
+                   "thesis (default: green, yellow, red), viridis or cividis (readable with a colour vision "
+                   "deficiency), coolwarm",
+                   "NAME"},
+                  {"size", "size of pictures, legend included, default 1280x720", "WxH"},
+                  {"target",
+                   "where pictures look at, world units, with a field of view of 45 degrees; default the "
+                   "middle of the scene, all of it in view",
+                   "X,Y,Z"},
+                  {"emphasis",
+                   "extremes: meshes below the upper quarter of the scene's range become transparent, so "
+                   "that small and hidden ones are found",
+                   "extremes"},
+              });
 }
 
 std::optional<std::filesystem::path> read_export(const CommandLine& line) {

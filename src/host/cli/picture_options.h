@@ -22,7 +22,7 @@ struct PictureRequest {
   bool wanted() const { return image || image_set; }
 };
 
-void add_picture_options(cxxopts::Options& options);
+void add_picture_options(Options& options);
 
 // Of --export. Throws UsageError.
 std::optional<std::filesystem::path> read_export(const CommandLine& line);

@@ -30,11 +30,12 @@ constexpr const char* kExamples =
     "  scene-analyzer view room.glb lamp.obj --metrics polygons_per_planar_group,relative_density\n"
     "Without a display, 'scene-analyzer analyze room.glb --image room.png' draws a picture.\n";
 
-cxxopts::Options make_options() {
-  cxxopts::Options options("scene-analyzer view", kPurpose);
-  options.custom_help("[OPTION...] ASSET...").set_width(110);
-  options.add_options("Window")("window-size", "size of the window, default 1280x720",
-                                cxxopts::value<std::string>(), "WxH");
+Options make_options() {
+  Options options("scene-analyzer view", kPurpose);
+  options.usage("[OPTION...] ASSET...");
+  options.add("Window", {
+                            {"window-size", "size of the window, default 1280x720", "WxH"},
+                        });
   add_measuring_options(options);
   add_running_options(options);
   add_common_options(options);
@@ -55,7 +56,7 @@ std::string help() {
 }  // namespace
 
 int view_command(std::span<const std::string> arguments) {
-  cxxopts::Options options = make_options();
+  Options options = make_options();
   const CommandLine line(options, arguments);
   if (line.flag("help")) {
     print_text(help());
