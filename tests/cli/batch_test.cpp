@@ -27,7 +27,7 @@ using testing::StartsWith;
 
 class BatchTest : public testing::Test {
  protected:
-  // `count` assets, every third of which in a folder of its own, one of them not finite.
+  // `count` assets, every third of which in a folder of its own.
   void make_library(int count) const {
     for (int i = 0; i < count; ++i) {
       const std::string name =

@@ -28,9 +28,9 @@ class AssetListTest : public testing::Test {
     }
   }
 
-  std::vector<std::string> below(const std::vector<ListedAsset>& assets) const {
+  std::vector<std::string> below(const AssetList& list) const {
     std::vector<std::string> names;
-    for (const ListedAsset& asset : assets)
+    for (const ListedAsset& asset : list.assets)
       names.push_back(fs::path(asset.path).lexically_relative(folder_.path()).string());
     return names;
   }
@@ -54,15 +54,37 @@ TEST_F(AssetListTest, GlobsSayWhatIsAnAsset) {
 
 TEST_F(AssetListTest, AnAssetIsListedOnceWithItsSize) {
   const std::string asset = (folder_.path() / "b.glb").string();
-  const auto assets = list_assets({asset, folder_.path().string(), asset}, {}, input_);
-  EXPECT_EQ(assets.size(), 4U);
-  EXPECT_EQ(assets[1], (ListedAsset{asset, 3}));
+  const AssetList list = list_assets({asset, folder_.path().string(), asset}, {}, input_);
+  EXPECT_EQ(list.assets.size(), 4U);
+  EXPECT_EQ(list.repeated, 2U);
+  EXPECT_EQ(list.assets[1], (ListedAsset{asset, 3}));
+}
+
+TEST_F(AssetListTest, AFileOfManyNamesIsOneAsset) {
+  const fs::path root = folder_.path();
+  fs::create_symlink("../b.glb", root / "props" / "a link.glb");
+  fs::create_symlink(root / "props", root / "more props");
+  input_.str((root / "props/../b.glb").string() + '\n' + (root / "more props/chair.fbx").string() + '\n' +
+             (root / "./b.glb").string() + '\n');
+  const AssetList list = list_assets({root.string(), "-"}, {}, input_);
+  EXPECT_EQ(list.assets.size(), 4U);
+  EXPECT_EQ(list.repeated, 4U);
+  EXPECT_THAT(below(list), testing::Not(testing::Contains("props/a link.glb")))
+      << "the file stands for its links";
+}
+
+TEST_F(AssetListTest, ALinkThatLeadsNowhereIsAnAssetThatWillFail) {
+  fs::create_symlink("nowhere.obj", folder_.path() / "gone.obj");
+  fs::create_symlink("round.obj", folder_.path() / "round.obj");
+  fs::create_symlink("nowhere.txt", folder_.path() / "gone.txt");
+  EXPECT_THAT(listed({}), ElementsAre("a.OBJ", "b.glb", "gone.obj", "props/chair.fbx", "props/old/chair.fbx",
+                                      "round.obj"));
 }
 
 TEST_F(AssetListTest, ListsNameOneAssetPerLine) {
   input_.str("x.glb\r\n\nsome folder/y.obj");
   const fs::path list = folder_.write("list", "missing.glb\n");
-  EXPECT_THAT(list_assets({"-", list.string()}, {}, input_),
+  EXPECT_THAT(list_assets({"-", list.string()}, {}, input_).assets,
               ElementsAre(ListedAsset{"missing.glb", 0}, ListedAsset{"some folder/y.obj", 0},
                           ListedAsset{"x.glb", 0}));
 }

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "base/error.h"
 #include "library/output_folder.h"
@@ -95,7 +98,7 @@ TEST_F(JournalTest, WhatAKilledRunHasWrittenIsFound) {
   }
   const fs::path file = journal_folder(out()) / files().front();
   fs::resize_file(file, fs::file_size(file) - 10);
-  const Journals before = read_journals(out());
+  const Journals before = read_journals(out(), 1);
   EXPECT_EQ(before.records.size(), 1U);
   EXPECT_THAT(before.warnings, IsEmpty()) << "a line that is cut off at the end is no damage";
   Journal next(out(), {});
@@ -104,7 +107,7 @@ TEST_F(JournalTest, WhatAKilledRunHasWrittenIsFound) {
   next.add(full_record("b", "2"));
   next.finish(std::vector<std::string>{"a", "b"});
   EXPECT_THAT(files(), ElementsAre("shard-00000-of-00001.jsonl"));
-  EXPECT_EQ(read_journals(out()).records.at("a"), full_record("a", "1"));
+  EXPECT_EQ(read_journals(out(), 1).records.at("a"), full_record("a", "1"));
 }
 
 TEST_F(JournalTest, TheLatestRecordOfAnAssetCounts) {
@@ -113,7 +116,7 @@ TEST_F(JournalTest, TheLatestRecordOfAnAssetCounts) {
   other.add(full_record("a", "3"));
   one.add(full_record("b", "5"));
   other.add(full_record("b", "4"));
-  const Journals journals = read_journals(out());
+  const Journals journals = read_journals(out(), 2);
   EXPECT_EQ(journals.records.at("a").finished, "3");
   EXPECT_EQ(journals.records.at("b").finished, "5");
 }
@@ -128,14 +131,51 @@ TEST_F(JournalTest, TheSameTaskTwiceAtOnceLosesNothing) {
   other.add(full_record("b", "1"));
   other.finish(assets);
   EXPECT_THAT(files(), ElementsAre("shard-00000-of-00001.jsonl"));
-  EXPECT_EQ(read_journals(out()).records.size(), 2U);
+  EXPECT_EQ(read_journals(out(), 1).records.size(), 2U);
+}
+
+TEST_F(JournalTest, WhatARunElsewhereHasAddedMeanwhileIsKept) {
+  Journal mine(out(), {});
+  mine.add(full_record("a", "1"));
+  const fs::path elsewhere = journal_folder(out()) / "shard-00000-of-00001.another.7.x.running.jsonl";
+  std::ofstream(elsewhere) << to_line(full_record("a", "2")) << '\n'
+                           << to_line(full_record("b", "2")) << '\n';
+  mine.finish(std::vector<std::string>{"a", "b"});
+  EXPECT_EQ(read_journals(out(), 1).records.at("a").finished, "2");
+  EXPECT_EQ(read_journals(out(), 1).records.size(), 2U);
+  EXPECT_TRUE(fs::exists(elsewhere)) << "that run may go on";
+  fs::last_write_time(elsewhere, fs::file_time_type::clock::now() - std::chrono::hours(24 * 8));
+  Journal(out(), {}).finish(std::vector<std::string>{"a", "b"});
+  EXPECT_FALSE(fs::exists(elsewhere)) << "silent for so long, it is over";
+}
+
+TEST_F(JournalTest, MergingBesideRunsThatEndMissesNothing) {
+  const std::vector<std::string> assets = {"a", "b"};
+  {
+    Journal first(out(), {});
+    first.add(full_record("a", "1"));
+    first.add(full_record("b", "1"));
+    first.finish(assets);
+  }
+  std::atomic<bool> over = false;
+  std::jthread writer([&] {
+    for (int i = 0; i < 200; ++i) {
+      Journal journal(out(), {});
+      journal.add(full_record("a", "2"));
+      journal.finish(assets);
+    }
+    over = true;
+  });
+  do {
+    ASSERT_EQ(read_journals(out(), 1).records.size(), 2U);
+  } while (!over);
 }
 
 TEST_F(JournalTest, ADamagedLineIsNamedAndTheOthersCount) {
   std::ofstream(journal_folder(out()) / "shard-00000-of-00001.jsonl")
       << to_line(full_record("a", "1")) << "\nnonsense\n"
       << to_line(full_record("b", "1")) << '\n';
-  const Journals journals = read_journals(out());
+  const Journals journals = read_journals(out(), 1);
   EXPECT_EQ(journals.records.size(), 2U);
   EXPECT_THAT(journals.warnings, ElementsAre(HasSubstr("line 2 is no record")));
 }

@@ -95,6 +95,7 @@ class MergeTest : public testing::Test {
       record.analysis = "analyses/" + analysis.asset + ".analysis";
       record.content_key = analysis_file::content_key(analysis);
       record.bytes = 100;
+      record.metrics.set();
       record.finished = utc_now();
       analysis_file::store(out() / record.analysis, analysis);
       manifest.shards.push_back(static_cast<std::uint32_t>(manifest.assets.size()) % shards);
@@ -127,6 +128,12 @@ class MergeTest : public testing::Test {
       return error.lines();
     }
     return {};
+  }
+  std::string json(const Merged& library, std::size_t top = 3) {
+    return summary_json(library, top_offenders(out(), library, top), top);
+  }
+  std::string table(const Merged& library) {
+    return summary_table(library, top_offenders(out(), library, 3), 3, {});
   }
   std::string csv(const Merged& library) {
     std::string text;
@@ -173,11 +180,11 @@ TEST_F(MergeTest, TheTableHasTheColumnsAndDigitsOfAnalyze) {
 TEST_F(MergeTest, ShardsMakeNoDifference) {
   keep(samples(30));
   const Merged one = merged();
-  const std::string one_csv = csv(one), one_json = summary_json(out(), one, 5);
+  const std::string one_csv = csv(one), one_json = json(one, 5);
   fs::remove_all(out());
   keep(samples(30), 7);
   EXPECT_EQ(csv(merged()), one_csv);
-  EXPECT_EQ(summary_json(out(), merged(), 5), one_json);
+  EXPECT_EQ(json(merged(), 5), one_json);
 }
 
 TEST_F(MergeTest, TimesOfDevicesOfOneKindAreRatedTogether) {
@@ -196,6 +203,71 @@ TEST_F(MergeTest, TimesOfDifferentDevicesAreNotRated) {
   EXPECT_TRUE(library.mixed_timings);
   EXPECT_FALSE(library.timing);
   for (const auto& row : library.ratings) EXPECT_FALSE(row[index_of(Metric::kRenderingTime)]);
+}
+
+// A second timing of the same asset, on a device called `name`.
+analysis::RenderTiming timing_on(const AssetAnalysis& asset, const std::string& name) {
+  analysis::RenderTiming timing = asset.timings[0];
+  timing.conditions.device = {name, "driver", "discrete", name};
+  for (auto& time : timing.times) time.mean_ns = time.fastest_ns = time.slowest_ns = 7;
+  return timing;
+}
+
+TEST_F(MergeTest, TheDeviceThatTimedAllCountsWhicheverComesFirst) {
+  auto analyses = samples(4);
+  for (auto& analysis : analyses) {
+    const auto common = timing_on(analysis, "common");
+    analysis.timings.insert(analysis.timings.end(), common);
+  }
+  analyses[3].timings.erase(analyses[3].timings.begin());
+  keep(analyses);
+  const Merged library = merged();
+  EXPECT_FALSE(library.mixed_timings);
+  ASSERT_TRUE(library.timing);
+  EXPECT_EQ(library.timing->device.name, "common");
+  EXPECT_EQ(library.timing_devices, 1U);
+  for (const MergedMesh& mesh : library.meshes) EXPECT_EQ(mesh.time_ns, 7.0);
+}
+
+TEST_F(MergeTest, TimesOfOtherStepsOrSizesAreNotThoseAskedFor) {
+  auto analyses = samples(3);
+  for (auto& analysis : analyses) {
+    auto other = timing_on(analysis, "GPU");
+    other.conditions.steps = 3;
+    analysis.timings.insert(analysis.timings.begin(), other);
+  }
+  keep(analyses);
+  const Merged library = merged();
+  EXPECT_FALSE(library.mixed_timings);
+  EXPECT_EQ(library.timing->steps, 8U);
+  EXPECT_EQ(library.meshes[0].time_ns, 1000.0);
+}
+
+TEST_F(MergeTest, WhatWasAnalysedForFewerMetricsIsMissing) {
+  keep(samples(2));
+  Journal journal(out(), {});
+  Record record = *journal.find("asset1001.glb");
+  record.metrics.reset(index_of(Metric::kFourierTransform));
+  record.finished = utc_now();
+  journal.add(record);
+  EXPECT_THAT(lacking(), Contains(HasSubstr("asset1001.glb.analysis' lacks metrics")));
+}
+
+TEST_F(MergeTest, WhatHasChangedSinceIsMissing) {
+  keep(samples(2));
+  Manifest manifest = read_manifest(out());
+  manifest.assets[1].bytes = 101;
+  write_manifest(out(), manifest);
+  EXPECT_THAT(lacking(), Contains("asset1001.glb: has changed since it was looked at"));
+}
+
+TEST_F(MergeTest, WhatAnotherCutHasLeftDoesNotCount) {
+  keep(samples(2));
+  {
+    Journal journal(out(), {0, 2});
+    journal.add({.asset = "asset1000.glb", .reason = "asset1000.glb: gone", .bytes = 100, .finished = "9"});
+  }
+  EXPECT_EQ(merged().assets.size(), 2U);
 }
 
 TEST_F(MergeTest, SaysWhichShardAndWhichAssetIsMissing) {
@@ -251,14 +323,15 @@ TEST_F(MergeTest, ShapesInSeveralAssetsAreDuplicates) {
 TEST_F(MergeTest, TheWorstComeFirstAndCopiesOnce) {
   keep(samples(10));
   const Merged library = merged();
-  const auto worst = top_offenders(out(), library, index_of(Metric::kPolygonsPerPlanarGroup), 2);
+  const Offenders offenders = top_offenders(out(), library, 2);
+  const auto& worst = offenders[index_of(Metric::kPolygonsPerPlanarGroup)];
   ASSERT_EQ(worst.size(), 2U);
   EXPECT_EQ(worst[0].mesh, 0U);
   EXPECT_EQ(worst[0].value, 0.5);
   EXPECT_EQ(worst[0].node, "node 0");
-  const auto dense = top_offenders(out(), library, index_of(Metric::kRelativeDensity), 1);
+  const auto& dense = offenders[index_of(Metric::kRelativeDensity)];
   EXPECT_EQ(dense[0].others, 9U) << "the same shape in ten assets";
-  EXPECT_TRUE(top_offenders(out(), library, index_of(Metric::kDistance), 5).empty());
+  EXPECT_TRUE(offenders[index_of(Metric::kDistance)].empty());
 }
 
 TEST_F(MergeTest, TheSummaryHoldsTotalsAndWhatFailed) {
@@ -268,10 +341,11 @@ TEST_F(MergeTest, TheSummaryHoldsTotalsAndWhatFailed) {
     journal.add({.asset = "asset1002.glb",
                  .status = Status::kFailed,
                  .reason = "asset1002.glb: \xff",
+                 .bytes = 100,
                  .finished = utc_now()});
   }
   const Merged library = merged();
-  const auto document = nlohmann::json::parse(summary_json(out(), library, 3));
+  const auto document = nlohmann::json::parse(json(library));
   EXPECT_EQ(document["assets"]["analysed"], 2);
   EXPECT_EQ(document["assets"]["failed"], 1);
   EXPECT_EQ(document["assets"]["not_analysed"][0]["reason"], "asset1002.glb: \xef\xbf\xbd");
@@ -279,14 +353,13 @@ TEST_F(MergeTest, TheSummaryHoldsTotalsAndWhatFailed) {
   EXPECT_EQ(document["defects"]["boundary_edges"]["meshes"], 6);
   EXPECT_TRUE(document["distributions"]["ratings"]["distance"].is_null());
   EXPECT_EQ(document["distributions"]["ratings"]["planar_group_variation"]["median"], 0.25);
-  const std::string table = summary_table(out(), library, 3, {});
-  EXPECT_THAT(table, HasSubstr("2 assets"));
-  EXPECT_THAT(table, HasSubstr("1 assets could not be analysed"));
+  EXPECT_THAT(table(library), HasSubstr("2 assets"));
+  EXPECT_THAT(table(library), HasSubstr("1 assets could not be analysed"));
 }
 
 TEST_F(MergeTest, TheSummaryKeepsToItsSchema) {
   keep(samples(4));
-  std::string text = summary_json(out(), merged(), 3);
+  std::string text = json(merged());
   EXPECT_EQ(validate(folder_.write("library.json", text)), 0);
   text.replace(text.find("\"mixed_timings\": false"), 22, "\"mixed_timings\": \"no\"");
   EXPECT_EQ(validate(folder_.write("wrong.json", text)), 1);
@@ -296,8 +369,8 @@ TEST_F(MergeTest, AnEmptyLibraryIsNoTrouble) {
   keep({});
   const Merged library = merged();
   EXPECT_TRUE(library.meshes.empty());
-  EXPECT_THAT(summary_table(out(), library, 3, {}), HasSubstr("0 assets"));
-  EXPECT_EQ(validate(folder_.write("library.json", summary_json(out(), library, 3))), 0);
+  EXPECT_THAT(table(library), HasSubstr("0 assets"));
+  EXPECT_EQ(validate(folder_.write("library.json", json(library))), 0);
 }
 
 TEST(Distribution, OfKnownValues) {

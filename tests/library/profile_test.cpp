@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "base/error.h"
 #include "gpu/error.h"
@@ -58,7 +61,7 @@ class ProfileTest : public testing::Test {
     journal.finish(assets);
     return result;
   }
-  std::map<std::string, Record> records() const { return read_journals(options_.folder).records; }
+  std::map<std::string, Record> records() const { return read_journals(options_.folder, 1).records; }
 
   TemporaryFolder folder_;
   ProfileOptions options_;
@@ -90,8 +93,12 @@ TEST_F(ProfileTest, WhatIsUnchangedIsNotMeasuredAgainAndKeepsItsRecord) {
   const auto assets = library(5);
   run(assets);
   const auto before = records();
+  events_.device = []() -> gpu::Device& { throw gpu::NoDevice("nobody may ask"); };
+  EXPECT_EQ(run(assets).unchanged, 5U);
+  EXPECT_EQ(records(), before);
+  unchanged_ = 0;
+  events_.device = shared_device;
   folder_.write("asset3.obj", triangle(99));
-  events_.device = []() -> gpu::Device& { return shared_device(); };
   const ProfileResult result = run(assets);
   EXPECT_EQ(result.analysed, 5U);
   EXPECT_EQ(result.unchanged, 4U);
@@ -135,8 +142,86 @@ TEST_F(ProfileTest, WhatEndsTheRunLeavesWhatIsDone) {
 }
 
 TEST_F(ProfileTest, MemoryForScenesIsBounded) {
-  options_.most_bytes = 1;  // each waits until the one before is measured
+  options_.most_bytes = 1;
   EXPECT_EQ(run(library(20)).analysed, 20U);
+  const auto assets = library(20);
+  pipeline::Pipeline pipeline(options_.pipeline, shared_device);
+  constexpr unsigned kThreads = 2;
+  ImportPool pool(pipeline, assets, kThreads, 1);
+  std::size_t taken = 0;
+  std::uint64_t held = 0;
+  while (const auto next = pool.take(std::chrono::steady_clock::now() + std::chrono::seconds(2))) {
+    ++taken;
+    held += next->bytes;
+  }
+  EXPECT_LE(taken, kThreads) << "the others wait until something is released, also those with analysis files";
+  pool.release(held);
+  EXPECT_TRUE(pool.take());
+}
+
+TEST_F(ProfileTest, APausedPoolImportsNothing) {
+  const auto assets = library(20);
+  pipeline::Pipeline pipeline(options_.pipeline, shared_device);
+  ImportPool pool(pipeline, assets, 2, 1 << 30);
+  pool.pause();
+  while (pool.take(std::chrono::steady_clock::now())) {
+  }
+  EXPECT_FALSE(pool.take(std::chrono::steady_clock::now() + std::chrono::milliseconds(200)));
+  pool.resume();
+  EXPECT_TRUE(pool.take());
+}
+
+// Of two packs the first is lost while the second waits for its start triangles.
+TEST_F(ProfileTest, ADeviceThatIsLostWhileAPackWaitsIsNotUsedByTheNext) {
+  const auto assets = library(130);
+  int asked = 0;
+  events_.device = [&]() -> gpu::Device& {
+    ++asked;
+    return shared_device();
+  };
+  int records = 0;
+  const auto finished = events_.finished;
+  events_.finished = [&](const Record& record, bool unchanged) {
+    finished(record, unchanged);
+    if (++records == 10) throw gpu::DeviceLost("lost");
+  };
+  run(assets);
+  EXPECT_EQ(asked, 2);
+  std::set<std::string> names;
+  for (const Record& record : finished_) names.insert(record.asset);
+  EXPECT_EQ(names.size(), 130U);
+  for (const auto& [asset, record] : this->records()) EXPECT_EQ(record.status, Status::kAnalysed) << asset;
+}
+
+TEST_F(ProfileTest, AnAssetOfWhichTheNameIsTooLongIsOneRecord) {
+  auto assets = library(3);
+  std::string name = folder_.path().string();
+  while (name.size() < 3900) name += "/a_folder_with_a_long_name";
+  fs::create_directories(name);
+  name += "/" + std::string(4060 - name.size(), 'x') + ".obj";
+  std::ofstream(name) << triangle(3);
+  ASSERT_TRUE(fs::exists(name));
+  assets.push_back(name);
+  const ProfileResult result = run(assets);
+  EXPECT_EQ(result.analysed, 3U);
+  EXPECT_EQ(result.failed, 1U);
+  EXPECT_THAT(records().at(name).reason, HasSubstr("too long"));
+}
+
+TEST_F(ProfileTest, EachAssetIsKeptAsSoonAsItIsTimed) {
+  options_.pipeline.metrics.set();
+  options_.pipeline.parameters.steps = 1;
+  options_.pipeline.timing_budget = 0.05;
+  const auto assets = library(6);
+  std::size_t at_first = 0;
+  const auto finished = events_.finished;
+  events_.finished = [&](const Record& record, bool unchanged) {
+    finished(record, unchanged);
+    for (const auto& entry : fs::recursive_directory_iterator(analyses_folder(options_.folder)))
+      if (finished_.size() == 1 && entry.is_regular_file()) ++at_first;
+  };
+  EXPECT_EQ(run(assets).analysed, 6U);
+  EXPECT_EQ(at_first, 1U);
 }
 
 TEST_F(ProfileTest, AnOutputFolderThatCannotBeWrittenEndsTheRun) {

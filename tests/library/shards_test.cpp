@@ -57,6 +57,13 @@ TEST(Shards, VariablesThatMakeNoSenseAreNamed) {
   EXPECT_THAT(refusal({{"JOB_COMPLETION_INDEX", "-1"}, {"SHARD_COUNT", "8"}}), HasSubstr("no whole number"));
   EXPECT_THAT(refusal({{"JOB_COMPLETION_INDEX", ""}, {"SHARD_COUNT", "8"}}), HasSubstr("no whole number"));
   EXPECT_THAT(refusal({{"GTEST_SHARD_INDEX", "0"}, {"GTEST_TOTAL_SHARDS", "0"}}), HasSubstr("from 1 to"));
+  for (const char* task : {"1", "2", "6"})
+    EXPECT_THAT(refusal({{"SLURM_ARRAY_TASK_ID", task},
+                         {"SLURM_ARRAY_TASK_MIN", "1"},
+                         {"SLURM_ARRAY_TASK_MAX", "6"},
+                         {"SLURM_ARRAY_TASK_STEP", "1"},
+                         {"SLURM_ARRAY_TASK_COUNT", "3"}}),
+                HasSubstr("has gaps"));
   EXPECT_THAT(refusal({{"SLURM_ARRAY_TASK_ID", "5"},
                        {"SLURM_ARRAY_TASK_MIN", "1"},
                        {"SLURM_ARRAY_TASK_STEP", "3"},

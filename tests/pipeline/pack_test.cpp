@@ -66,7 +66,16 @@ class PackTest : public testing::Test {
   static std::vector<Outcome> analyze_together(Pipeline& pipeline, const std::vector<fs::path>& assets) {
     std::vector<std::unique_ptr<PendingAnalysis>> prepared;
     for (const fs::path& asset : assets) prepared.push_back(pipeline.prepare(asset));
-    return pipeline.finish_pack(pipeline.start_pack(std::move(prepared)));
+    return finish(pipeline, std::move(prepared));
+  }
+  static std::vector<Outcome> finish(Pipeline& pipeline,
+                                     std::vector<std::unique_ptr<PendingAnalysis>> prepared) {
+    std::vector<Outcome> outcomes;
+    pipeline.finish_pack(pipeline.start_pack(std::move(prepared)), [&](std::size_t index, Outcome outcome) {
+      EXPECT_EQ(index, outcomes.size());
+      outcomes.push_back(std::move(outcome));
+    });
+    return outcomes;
   }
 
   TemporaryFolder folder_;
@@ -117,7 +126,6 @@ TEST_F(PackTest, AssetsThatNeedOtherMetricsKeepThem) {
     Pipeline all = pipeline("together");
     ASSERT_TRUE(all.analyze(assets[1]).analysis);
   }
-  // Its parameter is another now, so that it is measured again, with the metrics of its file.
   options_.metrics.reset().set(index_of(Metric::kPolygonsPerPlanarGroup));
   ASSERT_TRUE(pipeline("together").analyze(assets[0]).analysis);
   options_.metrics.reset().set(index_of(Metric::kCooccurrenceContrast));
@@ -162,7 +170,7 @@ TEST_F(PackTest, SeveralThreadsMayPrepare) {
           [&, i, asset] { prepared[static_cast<std::size_t>(i)] = pipeline.prepare(asset); });
     }
   }
-  for (const Outcome& outcome : pipeline.finish_pack(pipeline.start_pack(std::move(prepared))))
+  for (const Outcome& outcome : finish(pipeline, std::move(prepared)))
     EXPECT_TRUE(outcome.analysis) << outcome.error;
 }
 
@@ -177,7 +185,7 @@ TEST_F(PackTest, ADeviceThatIsForgottenIsAskedForAgain) {
   pipeline.forget_device();
   std::vector<std::unique_ptr<PendingAnalysis>> one;
   one.push_back(std::move(pending));
-  EXPECT_TRUE(pipeline.finish_pack(pipeline.start_pack(std::move(one))).at(0).analysis);
+  EXPECT_TRUE(finish(pipeline, std::move(one)).at(0).analysis);
   EXPECT_EQ(asked, 2);
 }
 

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "analysis/analysis.h"
+#include "base/error.h"
 
 namespace scene_analyzer::analysis_file {
 
@@ -50,7 +51,18 @@ std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem
                                                            const std::filesystem::path& asset,
                                                            const analysis::Parameters& parameters);
 
-// The same analysis gives the same bytes. Creates missing folders of the cache. Throws InputError with the
+class CannotStore : public InputError {
+ public:
+  CannotStore(const std::string& what, bool is_the_assets)
+      : InputError(what), is_the_assets_(is_the_assets) {}
+  // Whether others can be stored: it is this one's size, values or name.
+  bool is_the_assets() const { return is_the_assets_; }
+
+ private:
+  bool is_the_assets_;
+};
+
+// The same analysis gives the same bytes. Creates missing folders of the cache. Throws CannotStore with the
 // system's reason when it cannot be written (read-only folder, full disk) or when `analysis` has values that
 // no analysis can have; nothing is left behind then.
 void store(const std::filesystem::path& file, const analysis::AssetAnalysis& analysis);

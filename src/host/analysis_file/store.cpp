@@ -12,16 +12,16 @@ namespace scene_analyzer::analysis_file {
 
 void store(const std::filesystem::path& file, const analysis::AssetAnalysis& analysis) {
   const std::string subject = "analysis file '" + file.string() + "' cannot be written: ";
-  if (const auto reason = implausible(analysis)) throw InputError(subject + *reason);
+  if (const auto reason = implausible(analysis)) throw CannotStore(subject + *reason, true);
   try {
     const std::string bytes = seal(encode(analysis, version()));
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     files::replace(file, bytes, {.folder_sync = files::FolderSync::kRequired});
   } catch (const InputError& error) {
-    throw InputError(subject + error.what());
+    throw CannotStore(subject + error.what(), true);
   } catch (const std::system_error& error) {
-    throw InputError(subject + error.code().message() +
-                     " (choose another folder with --cache-dir, or go without with --no-cache)");
+    const bool is_the_name = error.code() == std::errc::filename_too_long;
+    throw CannotStore(subject + error.code().message(), is_the_name);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/version.h"
@@ -35,8 +36,16 @@ library::Manifest make_manifest(const BatchRequest& request) {
   manifest.tool_version = version();
   manifest.parameters = request.pipeline.parameters;
   manifest.metrics = request.pipeline.metrics;
+  manifest.timing_width = request.pipeline.timing_width;
+  manifest.timing_height = request.pipeline.timing_height;
   manifest.shard_count = request.shard.count;
-  manifest.assets = library::list_assets(request.inputs, request.filter, std::cin);
+  library::AssetList list = library::list_assets(request.inputs, request.filter, std::cin);
+  if (list.repeated > 0)
+    log_warning(fmt::format(
+        "{} more names lead to assets of the library, as links or in another spelling; each asset "
+        "counts once",
+        list.repeated));
+  manifest.assets = std::move(list.assets);
   manifest.shards = library::assign_shards(manifest.assets, request.shard.count);
   return manifest;
 }

@@ -48,10 +48,16 @@ bool write_outputs(const MergeRequest& request, const library::Merged& merged) {
       good = false;
     }
   };
-  if (request.json)
+  library::Offenders offenders;
+  bool are_named = false;
+  if (request.json || request.table())
     attempt([&] {
-      report::write_file(*request.json, library::summary_json(request.folder, merged, request.top));
+      offenders = library::top_offenders(request.folder, merged, request.top, check_interrupt);
+      are_named = true;
     });
+  if (request.json && are_named)
+    attempt(
+        [&] { report::write_file(*request.json, library::summary_json(merged, offenders, request.top)); });
   if (request.csv)
     attempt([&] {
       report::write_file(*request.csv, [&](const report::Sink& sink) {
@@ -61,10 +67,10 @@ bool write_outputs(const MergeRequest& request, const library::Merged& merged) {
         });
       });
     });
-  if (request.table())
+  if (request.table() && are_named)
     attempt([&] {
       const report::TableStyle style{.color = false, .width = terminal_width(STDOUT_FILENO), .max_rows = 0};
-      report::write_file("-", library::summary_table(request.folder, merged, request.top, style));
+      report::write_file("-", library::summary_table(merged, offenders, request.top, style));
     });
   return good;
 }

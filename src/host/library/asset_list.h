@@ -23,6 +23,11 @@ struct ListedAsset {
   bool operator==(const ListedAsset&) const = default;
 };
 
+struct AssetList {
+  std::vector<ListedAsset> assets;  // ascending by path, each file once
+  std::uint64_t repeated = 0;       // names that were left out, since another one leads to the same file
+};
+
 // Whether `text` matches `glob` as a whole.
 bool matches(std::string_view text, const std::string& glob);
 
@@ -30,13 +35,14 @@ bool matches(std::string_view text, const std::string& glob);
 // that mostly belong to other files (.xml, .raw, .prj and the like), which --include brings back.
 bool has_asset_extension(const std::filesystem::path& file);
 
-// The assets of `inputs`, ascending by path, each path once. A folder is searched with everything below it;
-// hidden files and folders (.git) and what links to folders are passed by. A file with an asset's extension
-// is an asset, whatever the filter; any other file is a list of assets, one path per line, relative to the
-// working folder, blank lines aside; "-" is such a list on `standard_input`. Listed assets need not exist:
-// that is found out, and said, when they are analysed. Throws UsageError for an input that does not exist and
-// for a folder or list that cannot be read. Cost: n log n in assets.
-std::vector<ListedAsset> list_assets(const std::vector<std::string>& inputs, const Filter& filter,
-                                     std::istream& standard_input);
+// The assets of `inputs`. A folder is searched with everything below it; hidden files and folders (.git) and
+// what links to folders are passed by. Of several names of one file, by links or in other spellings, the
+// first that is no link stands for all. A file with an asset's extension is an asset, whatever the filter;
+// any other file is a list of assets, one path per line, relative to the working folder, blank lines aside;
+// "-" is such a list on `standard_input`. Listed assets need not exist: that is found out, and said, when
+// they are analysed, and so it is for links that lead nowhere. Throws UsageError for an input that does not
+// exist and for a folder or list that cannot be read. Cost: n log n in assets.
+AssetList list_assets(const std::vector<std::string>& inputs, const Filter& filter,
+                      std::istream& standard_input);
 
 }  // namespace scene_analyzer::library

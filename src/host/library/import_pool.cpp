@@ -20,8 +20,10 @@ ImportPool::~ImportPool() {
 
 std::optional<std::size_t> ImportPool::next() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return stopping_ || begun_ == assets_.size() || held_bytes_ < most_bytes_; });
+  changed_.wait(
+      lock, [&] { return stopping_ || begun_ == assets_.size() || (!paused_ && held_bytes_ < most_bytes_); });
   if (stopping_ || begun_ == assets_.size()) return std::nullopt;
+  ++busy_;
   return begun_++;
 }
 
@@ -35,11 +37,13 @@ void ImportPool::run() {
       error = std::current_exception();
     }
     const std::lock_guard lock(mutex_);
+    --busy_;
     if (error) {
       error_ = error;
       stopping_ = true;
     } else {
-      held_bytes_ += prepared.analysis->scene_bytes();
+      prepared.bytes = prepared.analysis->held_bytes();
+      held_bytes_ += prepared.bytes;
       ready_.push_back(std::move(prepared));
     }
     changed_.notify_all();
@@ -71,6 +75,20 @@ void ImportPool::release(std::uint64_t bytes) {
   {
     const std::lock_guard lock(mutex_);
     held_bytes_ -= bytes;
+  }
+  changed_.notify_all();
+}
+
+void ImportPool::pause() {
+  std::unique_lock lock(mutex_);
+  paused_ = true;
+  changed_.wait(lock, [&] { return busy_ == 0; });
+}
+
+void ImportPool::resume() {
+  {
+    const std::lock_guard lock(mutex_);
+    paused_ = false;
   }
   changed_.notify_all();
 }

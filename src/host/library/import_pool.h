@@ -26,10 +26,11 @@ class ImportPool {
   struct Prepared {
     std::size_t asset = 0;
     std::unique_ptr<pipeline::PendingAnalysis> analysis;
+    std::uint64_t bytes = 0;  // of memory, to be released
   };
 
-  // Begins. No import starts while the scenes that were prepared and not released take `most_bytes` or more;
-  // those under way may exceed it. `pipeline` and `assets` must outlive the pool.
+  // Begins. No import starts while what was prepared and not released takes `most_bytes` or more; those under
+  // way may exceed it. `pipeline` and `assets` must outlive the pool.
   ImportPool(pipeline::Pipeline& pipeline, std::span<const std::string> assets, unsigned threads,
              std::uint64_t most_bytes);
   // Leaves what has not begun and waits for what has; Limits::stop of the pipeline's options makes that
@@ -43,6 +44,9 @@ class ImportPool {
   bool has_more() const;
   // As many bytes of what was taken are no longer held.
   void release(std::uint64_t bytes);
+  // Waits until no import is under way; none begins before resume().
+  void pause();
+  void resume();
 
  private:
   void run();
@@ -55,7 +59,8 @@ class ImportPool {
   std::condition_variable changed_;
   std::size_t begun_ = 0, taken_ = 0;
   std::uint64_t held_bytes_ = 0;
-  bool stopping_ = false;
+  unsigned busy_ = 0;  // threads that prepare an asset
+  bool paused_ = false, stopping_ = false;
   std::exception_ptr error_;
   std::deque<Prepared> ready_;
   std::vector<std::jthread> threads_;  // last: they use the others

@@ -1,9 +1,17 @@
 #include "library/journal.h"
 
 #include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <fstream>
+#include <functional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -19,9 +27,41 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kRunning = ".running.jsonl", kWhole = ".jsonl";
+constexpr auto kSurelyOver = std::chrono::hours(24 * 7);  // a run that has written nothing for so long
 
 std::string shard_name(Shard shard) {
   return fmt::format("shard-{:05}-of-{:05}", shard.index, shard.count);
+}
+
+std::string this_host() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+  std::string host = name.data();
+  std::erase_if(host, [](unsigned char letter) { return std::isalnum(letter) == 0; });
+  return host.empty() ? "unknown" : host.substr(0, 64);
+}
+
+// "<shard>.<host>.<process>.<random>.running.jsonl"
+std::string running_name(const std::string& shard) {
+  return fmt::format("{}.{}.{}{}{}", shard, this_host(), ::getpid(), files::temporary_name(), kRunning);
+}
+
+// Whether the run that writes `file` has ended. Its name says where it runs; of other machines nothing can be
+// told but that it has been silent for long.
+bool is_over(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const std::string here = '.' + this_host() + '.';
+  if (const std::size_t host = name.find(here); host != std::string::npos) {
+    int process = 0;
+    const char* digits = name.data() + host + here.size();
+    const auto [end, error] = std::from_chars(digits, name.data() + name.size(), process);
+    // Of this very process it is an earlier one's: restarted containers count processes anew.
+    if (error == std::errc() && *end == '.')
+      return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
+  }
+  std::error_code gone;
+  const auto written = fs::last_write_time(file, gone);
+  return !gone && fs::file_time_type::clock::now() - written > kSurelyOver;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::error_code& code) {
@@ -36,10 +76,15 @@ void keep_latest(std::map<std::string, Record>& records, Record record) {
   if (!added && known->second.finished <= record.finished) known->second = std::move(record);
 }
 
-// Returns the number of the first line that makes no sense; 0 where all do. The last one may be cut off.
-std::size_t read_records(const fs::path& file, std::map<std::string, Record>& records) {
+// The number of the first line that makes no sense, 0 where all do; the last one may be cut off. Nothing
+// where the file is gone: the run that wrote it has ended meanwhile.
+std::optional<std::size_t> read_records(const fs::path& file, std::map<std::string, Record>& records) {
   std::ifstream lines(file, std::ios::binary);
-  if (!lines) throw UsageError(fmt::format("{}: cannot be read", file.string()));
+  if (!lines) {
+    std::error_code error;
+    if (!fs::exists(file, error) && !error) return std::nullopt;
+    throw UsageError(fmt::format("{}: cannot be read", file.string()));
+  }
   std::size_t damaged = 0;
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
@@ -61,26 +106,37 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-}  // namespace
-
-Journals read_journals(const fs::path& folder) {
-  Journals journals;
-  for (const fs::path& file : files_of(journal_folder(folder)))
-    if (const std::size_t line = read_records(file, journals.records); line > 0)
-      journals.warnings.push_back(
-          fmt::format("{}: line {} is no record and does not count", file.string(), line));
-  return journals;
+// Reads the files that are `wanted`. A run's own file goes when all it says is in the shard's, which may have
+// been read before: then all are read again.
+Journals read_files(const fs::path& folder, const std::function<bool(const std::string& name)>& wanted) {
+  for (;;) {
+    Journals journals;
+    bool is_whole = true;
+    for (const fs::path& file : files_of(folder)) {
+      if (!wanted(file.filename().string())) continue;
+      const auto damaged = read_records(file, journals.records);
+      is_whole = is_whole && damaged.has_value();
+      if (damaged.value_or(0) > 0)
+        journals.warnings.push_back(
+            fmt::format("{}: line {} is no record and does not count", file.string(), *damaged));
+    }
+    if (is_whole) return journals;
+  }
 }
 
-Journal::Journal(const fs::path& folder, Shard shard) : folder_(journal_folder(folder)) {
-  const std::string name = shard_name(shard);
-  file_ = folder_ / (name + std::string(kWhole));
-  running_file_ = folder_ / (name + files::temporary_name() + std::string(kRunning));
-  for (const fs::path& file : files_of(folder_)) {
-    if (!file.filename().native().starts_with(name + ".")) continue;
-    read_records(file, records_);
-    if (file.native().ends_with(kRunning)) leftovers_.push_back(file);
-  }
+}  // namespace
+
+Journals read_journals(const fs::path& folder, std::uint32_t shard_count) {
+  const std::string cut = fmt::format("-of-{:05}.", shard_count);
+  return read_files(journal_folder(folder),
+                    [&](const std::string& name) { return name.find(cut) != std::string::npos; });
+}
+
+Journal::Journal(const fs::path& folder, Shard shard)
+    : folder_(journal_folder(folder)), shard_(shard_name(shard) + '.') {
+  file_ = folder_ / (shard_name(shard) + std::string(kWhole));
+  running_file_ = folder_ / running_name(shard_name(shard));
+  records_ = read_files(folder_, [&](const std::string& name) { return name.starts_with(shard_); }).records;
   try {
     running_.emplace(files::File::create(running_file_));
   } catch (const std::system_error& error) {
@@ -103,6 +159,8 @@ void Journal::add(Record record) {
 }
 
 void Journal::finish(std::span<const std::string> assets) {
+  const auto mine = [&](const std::string& name) { return name.starts_with(shard_); };
+  for (auto& [asset, record] : read_files(folder_, mine).records) keep_latest(records_, std::move(record));
   std::string text;
   for (const std::string& asset : assets)
     if (const Record* record = find(asset)) text += to_line(*record) + '\n';
@@ -113,8 +171,11 @@ void Journal::finish(std::span<const std::string> assets) {
     refuse(file_, error.code());
   }
   std::error_code ignored;  // what stays is older than what was written, and does not count
-  leftovers_.push_back(running_file_);
-  for (const fs::path& leftover : leftovers_) fs::remove(leftover, ignored);
+  for (const fs::path& file : files_of(folder_)) {
+    const std::string name = file.filename().string();
+    if (file == running_file_ || (mine(name) && name.ends_with(kRunning) && is_over(file)))
+      fs::remove(file, ignored);
+  }
 }
 
 }  // namespace scene_analyzer::library

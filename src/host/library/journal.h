@@ -2,6 +2,7 @@
 // the process is killed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,14 +16,15 @@
 
 namespace scene_analyzer::library {
 
-// The latest record of each asset in all journals of a library's folder, and what could not be read.
+// The latest record of each asset, and what could not be read.
 struct Journals {
   std::map<std::string, Record> records;  // by asset
   std::vector<std::string> warnings;
 };
-// Lines that are cut off, as a killed process leaves them, count as not written. Throws UsageError when the
-// folder cannot be searched.
-Journals read_journals(const std::filesystem::path& folder);
+// Of the shards of a library that is cut into so many; what another cut has left does not count. Lines that
+// are cut off, as a killed process leaves them, count as not written. Runs may go on meanwhile. Throws
+// UsageError when the folder cannot be searched.
+Journals read_journals(const std::filesystem::path& folder, std::uint32_t shard_count);
 
 class Journal {
  public:
@@ -33,14 +35,14 @@ class Journal {
   const Record* find(const std::string& asset) const;
   // Written at once; the latest record of an asset counts. Throws UsageError when the disk is full.
   void add(Record record);
-  // Replaces the shard's journal by one of `assets`, in their order, and removes those of runs that are over.
-  // Throws UsageError.
+  // Replaces the shard's journal by one of `assets`, in their order, with what other runs of the shard have
+  // added meanwhile, and removes those of runs that are over. Throws UsageError.
   void finish(std::span<const std::string> assets);
 
  private:
   std::filesystem::path folder_, file_, running_file_;
+  std::string shard_;  // how its files' names begin
   std::map<std::string, Record> records_;
-  std::vector<std::filesystem::path> leftovers_;  // of killed runs
   std::optional<files::File> running_;
 };
 

@@ -51,6 +51,23 @@ std::string get_bytes(const json& object, const std::string& key) {
   return hex == object.end() ? object.at(key).get<std::string>() : from_hex(hex->get<std::string>());
 }
 
+ordered_json keys_of(analysis::MetricSet metrics) {
+  ordered_json keys = ordered_json::array();
+  for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
+    if (metrics[i]) keys.push_back(analysis::kMetricKeys[i]);
+  return keys;
+}
+
+analysis::MetricSet metrics_of(const json& keys) {
+  analysis::MetricSet metrics;
+  for (const auto& key : keys) {
+    const auto metric = analysis::metric_of(key.get<std::string>());
+    if (!metric) throw std::invalid_argument("an unknown metric");
+    metrics.set(index_of(*metric));
+  }
+  return metrics;
+}
+
 std::string one_line_of(const ordered_json& object) {
   return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "analysis_file/analysis_file.h"
 
@@ -23,6 +24,7 @@ std::variant<analysis::AssetAnalysis, std::string> load_record(const std::filesy
   const auto because = [&](const std::string& reason) {
     return fmt::format("{}: its analysis file '{}' {}", record.asset, record.analysis, reason);
   };
+  if ((manifest.metrics & ~record.metrics).any()) return because("lacks metrics that are asked for now");
   if (leads_out(record.analysis)) return because("is not in the library's folder");
   auto loaded = analysis_file::load(folder / record.analysis);
   if (const auto* unusable = std::get_if<analysis_file::Unusable>(&loaded)) return because(unusable->reason);
@@ -34,6 +36,11 @@ std::variant<analysis::AssetAnalysis, std::string> load_record(const std::filesy
     wanted.start_searches = analysis.parameters.start_searches;
   wanted.steps = analysis.parameters.steps;  // those of rendering times are kept with them
   if (analysis.parameters != wanted) return because("was made under other options");
+  std::erase_if(analysis.timings, [&](const analysis::RenderTiming& timing) {
+    const auto& under = timing.conditions;
+    return under.width != manifest.timing_width || under.height != manifest.timing_height ||
+           under.steps != manifest.parameters.steps;
+  });
   analysis.asset = record.asset;
   return std::move(analysis);
 }

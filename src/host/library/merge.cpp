@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <set>
 #include <utility>
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
 #include "library/journal.h"
+#include "library/library_times.h"
 #include "library/load_record.h"
 
 namespace scene_analyzer::library {
@@ -19,15 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 using analysis::AssetAnalysis;
 using analysis::Metric;
-using Conditions = analysis::RenderTiming::Conditions;
 
 constexpr std::size_t kMostLines = 10;  // of what is missing
 
-// Devices of one kind measure alike: what tells two of them apart does not count. Processors of the same name
-// are told apart by their number of threads.
-Conditions kind_of(Conditions conditions) {
-  if (conditions.device.type != "cpu") conditions.device.id.clear();
-  return conditions;
+std::optional<double> time_of(const ratings::MeshRating& mesh) {
+  return mesh.rendering_time && mesh.rendering_time->mean_ns > 0 ? std::optional(mesh.rendering_time->mean_ns)
+                                                                 : std::nullopt;
 }
 
 bool is_rated(const analysis::GeometryAnalysis& geometry) {
@@ -41,7 +38,7 @@ class Merger {
 
   Merged run(const MergeProgress& progress) {
     Manifest manifest = read_manifest(folder_);
-    const Journals journals = read_journals(folder_);
+    Journals journals = read_journals(folder_, manifest.shard_count);
     warnings_.insert(warnings_.end(), journals.warnings.begin(), journals.warnings.end());
     const auto assets = std::exchange(manifest.assets, {});
     const auto shards = std::exchange(manifest.shards, {});
@@ -49,11 +46,14 @@ class Merger {
     options_.ratings.metrics &= merged_.manifest.metrics;
     options_.ratings.metrics.reset(index_of(Metric::kDistance));
     for (std::size_t i = 0; i < assets.size(); ++i) {
-      const auto record = journals.records.find(assets[i].path);
-      if (record == journals.records.end())
+      const auto record = journals.records.extract(assets[i].path);
+      if (record.empty())
         miss(assets[i].path, shards[i], "");
+      else if (record.mapped().bytes != assets[i].bytes)
+        miss(assets[i].path, shards[i],
+             fmt::format("{}: has changed since it was looked at", assets[i].path));
       else
-        add(record->second, shards[i]);
+        add(std::move(record.mapped()), shards[i]);
       if (progress) progress(i + 1, assets.size());
     }
     refuse_what_is_missing(assets.size());
@@ -69,17 +69,19 @@ class Merger {
     if (!reason.empty()) reasons_.push_back(reason);
   }
 
-  void add(const Record& record, std::uint32_t shard) {
+  void add(Record record, std::uint32_t shard) {
+    record.warnings = {};
     if (record.status != Status::kAnalysed) {
-      merged_.not_analysed.push_back(record);
+      merged_.not_analysed.push_back(std::move(record));
       return;
     }
     auto loaded = load_record(folder_, record, merged_.manifest);
     if (const auto* reason = std::get_if<std::string>(&loaded)) return miss(record.asset, shard, *reason);
-    const auto& analysis = std::get<AssetAnalysis>(loaded);
+    auto& analysis = std::get<AssetAnalysis>(loaded);
     const auto asset = static_cast<std::uint32_t>(merged_.assets.size());
-    merged_.assets.push_back(record);
     merged_.bytes += record.bytes;
+    merged_.assets.push_back(std::move(record));
+    times_.take(asset, merged_.meshes.size(), analysis);
     add_meshes(asset, analysis);
     add_geometries(asset, analysis);
   }
@@ -92,25 +94,16 @@ class Merger {
     merged_.degenerate_triangles += alone.degenerate_triangles;
     for (const ratings::MeshRating& rated : alone.meshes) {
       const auto& instance = analysis.instances[rated.instance];
-      MergedMesh mesh{.asset = asset,
-                      .instance = static_cast<std::uint32_t>(rated.instance),
-                      .triangles = analysis.geometries[instance.geometry].triangles,
-                      .shape_hash = analysis.geometries[instance.geometry].shape_hash.value_or(
-                          std::array<std::uint64_t, 2>()),
-                      .density = rated.density,
-                      .time_ns = {}};
-      if (rated.rendering_time && rated.rendering_time->mean_ns > 0)
-        mesh.time_ns = rated.rendering_time->mean_ns;
+      const MergedMesh mesh{.asset = asset,
+                            .instance = static_cast<std::uint32_t>(rated.instance),
+                            .triangles = analysis.geometries[instance.geometry].triangles,
+                            .shape_hash = analysis.geometries[instance.geometry].shape_hash.value_or(
+                                std::array<std::uint64_t, 2>()),
+                            .density = rated.density,
+                            .time_ns = time_of(rated)};
       merged_.meshes.push_back(mesh);
       merged_.ratings.push_back(rated.ratings);
     }
-    if (alone.timing) add_timing(*alone.timing);
-  }
-
-  void add_timing(const Conditions& conditions) {
-    devices_.insert(conditions.device.id);
-    if (!merged_.timing) merged_.timing = kind_of(conditions);
-    merged_.mixed_timings = merged_.mixed_timings || *merged_.timing != kind_of(conditions);
   }
 
   void add_geometries(std::uint32_t asset, const AssetAnalysis& analysis) {
@@ -160,12 +153,26 @@ class Merger {
     for (std::size_t k = 0; k < owners.size(); ++k) merged_.ratings[owners[k]][index_of(metric)] = rated[k];
   }
 
-  void rate() {
-    if (merged_.mixed_timings) {
-      merged_.timing.reset();
+  // What the first pass has taken may be of another device than the one that all have in common.
+  void settle_times() {
+    merged_.timing = times_.common();
+    merged_.mixed_timings = times_.any() && !merged_.timing;
+    if (merged_.mixed_timings)
       for (MergedMesh& mesh : merged_.meshes) mesh.time_ns.reset();
+    for (const auto& [asset, first_mesh] : times_.to_take_again()) {
+      auto loaded = load_record(folder_, merged_.assets[asset], merged_.manifest);
+      if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
+      auto& analysis = std::get<AssetAnalysis>(loaded);
+      times_.keep_common(analysis);
+      const ratings::SceneRating alone = ratings::rate(std::span(&analysis, 1), options_.ratings);
+      for (std::size_t i = 0; i < alone.meshes.size(); ++i)
+        merged_.meshes[first_mesh + i].time_ns = time_of(alone.meshes[i]);
     }
-    merged_.timing_devices = static_cast<std::uint32_t>(devices_.size());
+    merged_.timing_devices = times_.devices();
+  }
+
+  void rate() {
+    settle_times();
     rate_against_each_other(&MergedMesh::density, Metric::kRelativeDensity, ratings::relative_densities);
     rate_against_each_other(&MergedMesh::time_ns, Metric::kRenderingTime, ratings::rendering_time_ratings);
     merged_.relative_ratings = ratings::relative_ratings(merged_.ratings);
@@ -206,7 +213,7 @@ class Merger {
   Merged merged_;
   std::map<std::uint32_t, std::uint64_t> missing_of_shard_;
   std::vector<std::string> reasons_;
-  std::set<std::string> devices_;
+  LibraryTimes times_;
   std::vector<Shape> shapes_;
 };
 

@@ -35,23 +35,25 @@ class Incomplete : public std::runtime_error {
 using MergeProgress = std::function<void(std::uint64_t done, std::uint64_t assets)>;
 
 // Reads every analysis file of the library once, one at a time. Throws Incomplete unless that is allowed, and
-// UsageError for a folder that holds no library. `warnings` gets what does not keep it from merging. Memory:
-// some 350 bytes per mesh and per asset.
+// UsageError for a folder that holds no library. `warnings` gets what does not keep it from merging. Where
+// assets were timed on several devices, each of them on one that all have in common counts. Memory: some 350
+// bytes per mesh and 1.5 KiB per asset.
 Merged merge(const std::filesystem::path& folder, const MergeOptions& options,
              std::vector<std::string>& warnings, const MergeProgress& progress = {});
 
-// The meshes with the largest values of one rating (of R_rd the largest magnitudes), `count` at most, with
-// their names; of meshes of one shape and value the first stands for all. Ties in the order of the library.
-// `rating` == analysis::kMetricCount: the aggregate. Reads the analysis files of those meshes.
-std::vector<Offender> top_offenders(const std::filesystem::path& folder, const Merged& merged,
-                                    std::size_t rating, std::size_t count);
+// Of each rating, and last of the aggregate, the meshes with the largest values (of R_rd the largest
+// magnitudes), `count` at most, with their names; of meshes of one shape and value the first stands for all.
+// Ties in the order of the library. Reads the analysis files of those meshes, each once; calls `check` before
+// each.
+Offenders top_offenders(const std::filesystem::path& folder, const Merged& merged, std::size_t count,
+                        const std::function<void()>& check = {});
 
 // One line per mesh, with the columns of `analyze --csv` that a library has. Reads every analysis file again.
 void write_csv(const std::filesystem::path& folder, const Merged& merged, const report::Sink& sink);
-// The summary as JSON; docs/schema/library-v1.schema.json. `top`: meshes per rating and duplicates listed.
-std::string summary_json(const std::filesystem::path& folder, const Merged& merged, std::size_t top);
+// The summary as JSON; docs/schema/library-v1.schema.json. `top`: duplicates listed.
+std::string summary_json(const Merged& merged, const Offenders& offenders, std::size_t top);
 // The summary for people.
-std::string summary_table(const std::filesystem::path& folder, const Merged& merged, std::size_t top,
+std::string summary_table(const Merged& merged, const Offenders& offenders, std::size_t top,
                           const report::TableStyle& style);
 
 }  // namespace scene_analyzer::library

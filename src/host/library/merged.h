@@ -43,6 +43,8 @@ struct Offender {
   std::string node, name;    // of its node, of itself
 };
 
+using Offenders = std::array<std::vector<Offender>, analysis::kMetricCount + 1>;
+
 // Meshes of several assets that are the same: positions and indices, byte by byte.
 struct Duplicate {
   std::array<std::uint64_t, 2> shape_hash{};

@@ -61,10 +61,9 @@ ordered_json distributions(const Merged& merged) {
        distribution(values_of(count, [&](std::size_t i) { return merged.meshes[i].time_ns; }))}};
 }
 
-ordered_json top_of(const std::filesystem::path& folder, const Merged& merged, std::size_t rating,
-                    std::size_t count) {
+ordered_json top_of(const Merged& merged, const std::vector<Offender>& offenders) {
   ordered_json list = ordered_json::array();
-  for (const Offender& offender : top_offenders(folder, merged, rating, count)) {
+  for (const Offender& offender : offenders) {
     const MergedMesh& mesh = merged.meshes[offender.mesh];
     list.push_back({{"index", offender.mesh},
                     {"asset", merged.assets[mesh.asset].asset},
@@ -77,11 +76,11 @@ ordered_json top_of(const std::filesystem::path& folder, const Merged& merged, s
   return list;
 }
 
-ordered_json top(const std::filesystem::path& folder, const Merged& merged, std::size_t count) {
+ordered_json top(const Merged& merged, const Offenders& offenders) {
   ordered_json lists = ordered_json::object();
   for (std::size_t key = 0; key < kMetricCount; ++key)
-    lists[std::string(kMetricKeys[key])] = top_of(folder, merged, key, count);
-  lists["aggregate"] = top_of(folder, merged, kMetricCount, count);
+    lists[std::string(kMetricKeys[key])] = top_of(merged, offenders[key]);
+  lists["aggregate"] = top_of(merged, offenders[kMetricCount]);
   return lists;
 }
 
@@ -153,7 +152,7 @@ ordered_json timing(const Merged& merged) {
 
 }  // namespace
 
-std::string summary_json(const std::filesystem::path& folder, const Merged& merged, std::size_t count) {
+std::string summary_json(const Merged& merged, const Offenders& offenders, std::size_t count) {
   const ordered_json document = {{"schema_version", 1},
                                  {"tool", {{"version", merged.manifest.tool_version}}},
                                  {"parameters", parameters(merged.manifest)},
@@ -168,7 +167,7 @@ std::string summary_json(const std::filesystem::path& folder, const Merged& merg
                                  {"density_mean", number(merged.density_mean)},
                                  {"density_deviation", number(merged.density_deviation)},
                                  {"distributions", distributions(merged)},
-                                 {"top", top(folder, merged, count)},
+                                 {"top", top(merged, offenders)},
                                  {"duplicates", duplicates(merged, count)},
                                  {"defects", defects(merged)}};
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "library/merge.h"
 #include "report/terminal_text.h"
@@ -66,11 +65,10 @@ std::string distribution_rows(const Merged& merged) {
   return text;
 }
 
-std::string offender_rows(const std::filesystem::path& folder, const Merged& merged, std::size_t count,
-                          std::size_t width) {
+std::string offender_rows(const Merged& merged, const Offenders& all, std::size_t width) {
   std::string text;
   for (std::size_t rating = 0; rating <= kMetricCount; ++rating) {
-    const auto offenders = top_offenders(folder, merged, rating, count);
+    const auto& offenders = all[rating];
     if (offenders.empty()) continue;
     text += fmt::format("\nhighest {}:\n", key_of(rating));
     for (const Offender& one : offenders) {
@@ -122,11 +120,11 @@ std::string left_out_rows(const Merged& merged, std::size_t width) {
 
 }  // namespace
 
-std::string summary_table(const std::filesystem::path& folder, const Merged& merged, std::size_t top,
+std::string summary_table(const Merged& merged, const Offenders& offenders, std::size_t top,
                           const report::TableStyle& style) {
   const report::UnicodeScope unicode;
   const std::size_t width = width_of(style);
-  return totals(merged) + '\n' + distribution_rows(merged) + offender_rows(folder, merged, top, width) +
+  return totals(merged) + '\n' + distribution_rows(merged) + offender_rows(merged, offenders, width) +
          duplicate_rows(merged, top, width) + defect_rows(merged) + left_out_rows(merged, width);
 }
 

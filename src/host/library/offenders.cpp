@@ -3,8 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/error.h"
 #include "library/load_record.h"
@@ -19,21 +22,7 @@ std::optional<double> value_of(const Merged& merged, std::size_t mesh, std::size
   return rating == kMetricCount ? merged.aggregates[mesh] : merged.ratings[mesh][rating];
 }
 
-void add_names(const std::filesystem::path& folder, const Merged& merged, std::vector<Offender>& offenders) {
-  for (Offender& offender : offenders) {
-    const MergedMesh& mesh = merged.meshes[offender.mesh];
-    const auto loaded = load_record(folder, merged.assets[mesh.asset], merged.manifest);
-    if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
-    const auto& instance = std::get<analysis::AssetAnalysis>(loaded).instances.at(mesh.instance);
-    offender.node = instance.node;
-    offender.name = instance.mesh;
-  }
-}
-
-}  // namespace
-
-std::vector<Offender> top_offenders(const std::filesystem::path& folder, const Merged& merged,
-                                    std::size_t rating, std::size_t count) {
+std::vector<Offender> largest(const Merged& merged, std::size_t rating, std::size_t count) {
   std::vector<std::pair<double, std::size_t>> order;  // largest magnitude first, then as in the library
   for (std::size_t mesh = 0; mesh < merged.meshes.size(); ++mesh)
     if (const auto value = value_of(merged, mesh, rating)) order.emplace_back(-std::abs(*value), mesh);
@@ -52,7 +41,41 @@ std::vector<Offender> top_offenders(const std::filesystem::path& folder, const M
       break;  // no more of the same value
     }
   }
-  add_names(folder, merged, offenders);
+  return offenders;
+}
+
+// In the order of assets, so that each analysis file is read once.
+void add_names(const std::filesystem::path& folder, const Merged& merged, Offenders& all,
+               const std::function<void()>& check) {
+  std::vector<Offender*> offenders;
+  for (auto& of_rating : all)
+    for (Offender& offender : of_rating) offenders.push_back(&offender);
+  std::ranges::sort(offenders, {}, &Offender::mesh);
+  std::optional<std::uint32_t> asset;
+  analysis::AssetAnalysis analysis;
+  for (Offender* offender : offenders) {
+    const MergedMesh& mesh = merged.meshes[offender->mesh];
+    if (mesh.asset != asset) {
+      if (check) check();
+      auto loaded = load_record(folder, merged.assets[mesh.asset], merged.manifest);
+      if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
+      analysis = std::get<analysis::AssetAnalysis>(std::move(loaded));
+      asset = mesh.asset;
+    }
+    const auto& instance = analysis.instances.at(mesh.instance);
+    offender->node = instance.node;
+    offender->name = instance.mesh;
+  }
+}
+
+}  // namespace
+
+Offenders top_offenders(const std::filesystem::path& folder, const Merged& merged, std::size_t count,
+                        const std::function<void()>& check) {
+  Offenders offenders;
+  for (std::size_t rating = 0; rating <= kMetricCount; ++rating)
+    offenders[rating] = largest(merged, rating, count);
+  add_names(folder, merged, offenders, check);
   return offenders;
 }
 

@@ -34,10 +34,10 @@ std::string header_line(const Manifest& manifest) {
   line["dim"] = manifest.parameters.dim;
   line["weld_tolerance"] = manifest.parameters.weld_tolerance;
   line["steps"] = manifest.parameters.steps;
+  line["timing_width"] = manifest.timing_width;
+  line["timing_height"] = manifest.timing_height;
   line["start_searches"] = manifest.parameters.start_searches;
-  line["metrics"] = ordered_json::array();
-  for (std::size_t i = 0; i < analysis::kMetricCount; ++i)
-    if (manifest.metrics[i]) line["metrics"].push_back(analysis::kMetricKeys[i]);
+  line["metrics"] = keys_of(manifest.metrics);
   line["shard_count"] = manifest.shard_count;
   line["assets"] = manifest.assets.size();
   return one_line_of(line) + '\n';
@@ -52,11 +52,9 @@ Manifest read_header(const json& line) {
   manifest.parameters.weld_tolerance = line.at("weld_tolerance").get<double>();
   manifest.parameters.steps = line.at("steps").get<std::uint32_t>();
   manifest.parameters.start_searches = line.at("start_searches").get<std::uint64_t>();
-  for (const auto& key : line.at("metrics")) {
-    const auto metric = analysis::metric_of(key.get<std::string>());
-    if (!metric) throw std::invalid_argument("an unknown metric");
-    manifest.metrics.set(index_of(*metric));
-  }
+  manifest.timing_width = line.at("timing_width").get<std::uint32_t>();
+  manifest.timing_height = line.at("timing_height").get<std::uint32_t>();
+  manifest.metrics = metrics_of(line.at("metrics"));
   manifest.shard_count = line.at("shard_count").get<std::uint32_t>();
   return manifest;
 }

@@ -1,9 +1,9 @@
 // output_folder.h — The folder that a library's analyses are kept in, which several tasks may share.
 //
-//   library.jsonl                            what the library consists of, and under which options it is
-//   analysed analyses/<path of the asset>.analysis    an analysis file per asset
-//   journal/shard-00000-of-00001.jsonl       what became of each asset of a shard, in the library's order
-//   journal/shard-...-<random>.running.jsonl the same of a run that goes on, or was killed, in its order
+//   library.jsonl                             what it consists of, and under which options it is analysed
+//   analyses/<path of the asset>.analysis     an analysis file per asset
+//   journal/shard-00000-of-00001.jsonl        what became of each asset of a shard, in the library's order
+//   journal/shard-...<process>.running.jsonl  the same of a run that goes on, or was killed, in its order
 //
 // Every file is replaced in one step or belongs to one run alone, so that tasks on several machines, or the
 // same task started twice, do not disturb each other.
@@ -25,6 +25,7 @@ struct Manifest {
   std::string tool_version;
   analysis::Parameters parameters;
   analysis::MetricSet metrics;
+  std::uint32_t timing_width = 512, timing_height = 512;  // pixels
   std::uint32_t shard_count = 1;
   std::vector<ListedAsset> assets;    // ascending by path
   std::vector<std::uint32_t> shards;  // of each asset

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Pack {
   std::vector<std::size_t> assets;
   std::uint64_t bytes = 0, triangles = 0;
   Clock::time_point begin;
+  std::size_t noted = 0;                                             // of the assets, the first of them
   std::vector<std::unique_ptr<pipeline::PendingAnalysis>> prepared;  // until it is started
   std::unique_ptr<pipeline::PendingPack> pending;
 
@@ -91,7 +93,7 @@ class Profile {
       if (!deadline) pack.begin = Clock::now();
       if (!deadline) deadline = pack.begin + kLongestWait;
       pack.assets.push_back(next->asset);
-      pack.bytes += next->analysis->scene_bytes();
+      pack.bytes += next->bytes;
       pack.triangles += next->analysis->triangles();
       pack.prepared.push_back(std::move(next->analysis));
     }
@@ -108,36 +110,49 @@ class Profile {
       lose(pool, *next, error);
       next = nullptr;
     }
-    if (open_) finish(pool, *std::exchange(open_, nullptr));
-    open_ = std::move(next);
+    const std::unique_ptr<Pack> former = std::exchange(open_, std::move(next));
+    if (former) finish(pool, *former);
   }
 
+  // Where the processors draw, imports would be timed with the pictures.
   void finish(ImportPool& pool, Pack& pack) {
+    const bool is_timed_alone = pipeline_.is_timed_alone();
+    if (is_timed_alone) pool.pause();
     try {
       events_.check();
-      const auto outcomes = pipeline_.finish_pack(std::move(pack.pending));
-      const std::chrono::duration<double> seconds = Clock::now() - pack.begin;
-      for (std::size_t i = 0; i < outcomes.size(); ++i)
-        note(pack.assets[i], outcomes[i], seconds.count() / static_cast<double>(outcomes.size()), true);
+      finish(pack);
       losses_ = 0;
+      pool.release(pack.bytes);
     } catch (const gpu::DeviceLost& error) {
-      return lose(pool, pack, error);
+      lose(pool, pack, error);
     }
-    pool.release(pack.bytes);
+    if (is_timed_alone) pool.resume();
   }
 
-  // Nobody knows which of them it was: each is tried alone.
+  void finish(Pack& pack) {
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    auto mark = Clock::now();
+    const double together = seconds(mark - pack.begin) / static_cast<double>(pack.assets.size());
+    pipeline_.finish_pack(std::move(pack.pending), [&](std::size_t i, const pipeline::Outcome& outcome) {
+      events_.check();
+      const auto now = Clock::now();
+      note(pack.assets[i], outcome, together + seconds(now - std::exchange(mark, now)), true);
+      pack.noted = i + 1;
+    });
+  }
+
+  // Nobody knows which of them it was: each is tried alone. Nothing that is pending outlives the device.
   void lose(ImportPool& pool, Pack& pack, const gpu::DeviceLost& error) {
-    again_.insert(again_.end(), pack.assets.begin(), pack.assets.end());
+    give_up(pool, pack);
+    if (const auto other = std::exchange(open_, nullptr)) give_up(pool, *other);
+    count_loss(error);
+  }
+
+  void give_up(ImportPool& pool, Pack& pack) {
+    again_.insert(again_.end(), pack.assets.begin() + static_cast<std::ptrdiff_t>(pack.noted),
+                  pack.assets.end());
     pack.pending.reset();
     pool.release(pack.bytes);
-    if (open_ && open_.get() != &pack) {
-      again_.insert(again_.end(), open_->assets.begin(), open_->assets.end());
-      const auto former = std::exchange(open_, nullptr);
-      former->pending.reset();
-      pool.release(former->bytes);
-    }
-    count_loss(error);
   }
 
   void count_loss(const gpu::DeviceLost& error) {
@@ -160,8 +175,11 @@ class Profile {
   }
 
   void note(std::size_t asset, const pipeline::Outcome& outcome, double seconds, bool may_try_again) {
-    if (!outcome.write_error.empty()) throw UsageError(outcome.write_error);
-    const bool changed = outcome.analysis && !outcome.kept && !is_beyond_a_limit(*outcome.analysis);
+    if (!outcome.write_error.empty() && !outcome.others_can_be_written)
+      throw UsageError(fmt::format("{}; what was analysed is kept, and the same command goes on from there",
+                                   outcome.write_error));
+    const bool changed = outcome.analysis && !outcome.kept && outcome.write_error.empty() &&
+                         !is_beyond_a_limit(*outcome.analysis);
     if (may_try_again && (outcome.may_succeed_alone || changed)) {
       again_.push_back(asset);
       return;
@@ -169,17 +187,28 @@ class Profile {
     Record record = record_of(asset, outcome, seconds);
     count(record.status, outcome.from_file);
     const Record* known = journal_.find(record.asset);
-    if (outcome.from_file && known != nullptr && known->content_key == record.content_key)
-      record = *known;  // which has the times
-    else
-      journal_.add(record);
+    const bool is_known = outcome.from_file && known != nullptr && known->content_key == record.content_key;
+    if (is_known) record = known_again(*known, std::move(record));
+    if (!is_known || record != *known) journal_.add(record);
     events_.finished(record, outcome.from_file);
+  }
+
+  // With the times of when it was measured.
+  static Record known_again(const Record& known, Record now) {
+    Record record = known;
+    record.metrics |= now.metrics;
+    if (record != known) record.finished = std::move(now.finished);
+    return record;
   }
 
   Record record_of(std::size_t asset, const pipeline::Outcome& outcome, double seconds) const {
     Record record;
     record.asset = assets_[asset];
     record.finished = utc_now();
+    record.metrics = options_.pipeline.metrics;
+    std::error_code unknown;  // as when it was listed
+    record.bytes = std::filesystem::file_size(record.asset, unknown);
+    if (unknown) record.bytes = 0;
     record.seconds = seconds;
     if (outcome.import) record.import_seconds = outcome.import->seconds;
     record.warning_count = outcome.messages.size();
@@ -203,6 +232,8 @@ class Profile {
     } else if (is_beyond_a_limit(analysis)) {
       record.status = Status::kIncomplete;
       record.reason = first_limit(analysis);
+    } else if (!outcome.write_error.empty()) {
+      record.reason = fmt::format("{}: {}", record.asset, outcome.write_error);
     } else {
       record.reason = fmt::format("{}: the file changes while it is read", record.asset);
     }

@@ -27,6 +27,7 @@ Record read(const json& line) {
   record.reason = line.value("reason", "");
   if (line.contains("analysis")) record.analysis = get_bytes(line, "analysis");
   record.content_key = line.value("content_key", "");
+  record.metrics = metrics_of(line.at("metrics"));
   record.bytes = line.at("bytes").get<std::uint64_t>();
   record.meshes = line.at("meshes").get<std::uint64_t>();
   record.triangles = line.at("triangles").get<std::uint64_t>();
@@ -47,6 +48,7 @@ std::string to_line(const Record& record) {
   if (!record.reason.empty()) line["reason"] = record.reason;
   if (!record.analysis.empty()) put_bytes(line, "analysis", record.analysis);
   if (!record.content_key.empty()) line["content_key"] = record.content_key;
+  line["metrics"] = keys_of(record.metrics);
   line["bytes"] = record.bytes;
   line["meshes"] = record.meshes;
   line["triangles"] = record.triangles;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/metric.h"
+
 namespace scene_analyzer::library {
 
 enum class Status : std::uint8_t {
@@ -23,7 +25,8 @@ struct Record {
   std::string reason = {};       // of all but kAnalysed, for people
   std::string analysis = {};     // of kAnalysed: its analysis file, relative to the library's output folder
   std::string content_key = {};  // of kAnalysed, see analysis_file::content_key
-  std::uint64_t bytes = 0;       // of the asset's file
+  analysis::MetricSet metrics = {};         // that were asked for
+  std::uint64_t bytes = 0;                  // of the asset's file
   std::uint64_t meshes = 0, triangles = 0;  // instances, and the kept triangles of each geometry once
   double import_seconds = 0, seconds = 0;   // of reading it, and in all; the last time it was measured
   std::vector<std::string> warnings = {};   // the first of them, kMostWarnings at most

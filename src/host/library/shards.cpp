@@ -37,6 +37,18 @@ Shard checked(std::uint64_t index, std::uint64_t count, const char* index_name, 
   return {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(count)};
 }
 
+// With gaps (--array=1,2,6) the numbers do not say which shard a task is, also where this one's seems to.
+void refuse_gaps(const Environment& environment, std::uint64_t least, std::uint64_t step) {
+  const std::uint64_t most = number_in(environment, "SLURM_ARRAY_TASK_MAX");
+  const std::uint64_t count = number_in(environment, "SLURM_ARRAY_TASK_COUNT");
+  if (most >= least && (most - least) / step + 1 == count) return;
+  throw UsageError(fmt::format(
+      "--shard auto: an array of {} tasks from SLURM_ARRAY_TASK_MIN={} to SLURM_ARRAY_TASK_MAX={} "
+      "in steps of {} has gaps; arrays of single numbers (--array=1,5,6) need --shard-index and "
+      "--shard-count",
+      count, least, most, step));
+}
+
 Shard slurm_shard(const Environment& environment) {
   const std::uint64_t task = number_in(environment, "SLURM_ARRAY_TASK_ID");
   const std::uint64_t least = number_in(environment, "SLURM_ARRAY_TASK_MIN");
@@ -48,6 +60,7 @@ Shard slurm_shard(const Environment& environment) {
                     "SLURM_ARRAY_TASK_MIN={} in steps of SLURM_ARRAY_TASK_STEP={}; arrays of single numbers "
                     "(--array=1,5,6) need --shard-index and --shard-count",
                     task, least, step));
+  if (environment("SLURM_ARRAY_TASK_MAX")) refuse_gaps(environment, least, step);
   return checked((task - least) / step, number_in(environment, "SLURM_ARRAY_TASK_COUNT"),
                  "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT");
 }

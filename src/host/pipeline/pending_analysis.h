@@ -31,8 +31,8 @@ class PendingAnalysis {
   bool has_something_to_measure() const { return computed_ && !has_failed() && !scene_.instances.empty(); }
 
   const std::filesystem::path& asset() const { return asset_; }
-  // What its size says about memory and time; 0 where nothing was imported.
-  std::uint64_t scene_bytes() const { return scene_.effort.answer_bytes; }
+  // Of memory, about: the scene and the analysis.
+  std::uint64_t held_bytes() const;
   std::uint64_t triangles() const;
 
   // Its parts refer to each other.

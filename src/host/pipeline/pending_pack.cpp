@@ -10,6 +10,16 @@ std::uint64_t PendingAnalysis::triangles() const {
   return triangles;
 }
 
+std::uint64_t PendingAnalysis::held_bytes() const {
+  // Names, paths and what the allocator adds are guessed.
+  constexpr std::uint64_t kInstance = 200, kGeometry = 600, kAsset = 4096;
+  std::uint64_t bytes = kAsset + scene_.effort.answer_bytes;
+  if (outcome_.analysis)
+    bytes +=
+        outcome_.analysis->instances.size() * kInstance + outcome_.analysis->geometries.size() * kGeometry;
+  return bytes;
+}
+
 bool PendingPack::is_searching() const {
   return (measurement_ && measurement_->is_searching()) ||
          std::ranges::any_of(assets_, [](const auto& asset) { return asset->is_searching(); });

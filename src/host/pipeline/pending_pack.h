@@ -35,6 +35,7 @@ class PendingPack {
   std::vector<PendingAnalysis*> joined_assets_;
   JoinedScene joined_;
   analysis::AssetAnalysis analysis_;
+  analysis::DeviceStamp device_;
   DegenerateTriangles degenerate_;
   std::unique_ptr<PendingMeasurement> measurement_;  // last: it uses the others to its end
 };

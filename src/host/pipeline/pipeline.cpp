@@ -99,7 +99,11 @@ Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
 
 std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Progress& progress) {
   auto pending = prepare(asset, progress);
-  if (pending->has_something_to_measure()) attempt(asset, pending->outcome_, [&] { measure(*pending); });
+  if (!pending->has_something_to_measure()) return pending;
+  attempt(asset, pending->outcome_, [&] {
+    measure(*pending);
+    if (pending->wanted_[kTiming]) find_times(*pending);
+  });
   return pending;
 }
 
@@ -188,15 +192,16 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   if (scene.instances.empty()) add_empty_row(analysis);
 }
 
-void Pipeline::start_device() {
+std::shared_ptr<const Pipeline::KnownDevice> Pipeline::start_device() {
   const std::lock_guard lock(device_mutex_);
-  if (measurer_) return;
+  if (known_device_) return known_device_;
   gpu::Device& device = device_();
-  device_info_ = &device.info();
-  device_stamp_ = {device_info_->name, device_info_->driver, gpu::to_string(device_info_->type),
-                   device_info_->id};
+  const gpu::DeviceInfo& info = device.info();
   measurer_ = std::make_unique<Measurer>(device);
   gpu_ = &device;
+  known_device_ = std::make_shared<const KnownDevice>(
+      KnownDevice{info, {info.name, info.driver, gpu::to_string(info.type), info.id}});
+  return known_device_;
 }
 
 void Pipeline::forget_device() {
@@ -204,15 +209,14 @@ void Pipeline::forget_device() {
   render_timer_.reset();
   measurer_.reset();
   gpu_ = nullptr;
-  device_info_ = nullptr;
+  known_device_ = nullptr;
 }
 
 void Pipeline::measure(PendingAnalysis& pending) {
   const MetricSet wanted = pending.wanted_;
   pending.report(kImportEnds, "starting the device");
-  start_device();
   AssetAnalysis& analysis = *pending.outcome_.analysis;
-  analysis.device = device_stamp_;
+  analysis.device = start_device()->stamp;
   const double measured = wanted[kTiming] ? kTimingBegins : kTimingEnds;
   Measurement measurement{.scene = pending.scene_,
                           .analysis = analysis,
@@ -234,7 +238,6 @@ void Pipeline::measure(PendingAnalysis& pending) {
       pending.degenerate_[geometry] = std::move(triangles);
     };
   pending.measurement_ = measurer_->start(std::move(measurement));
-  if (wanted[kTiming]) find_times(pending);
 }
 
 void Pipeline::find_times(PendingAnalysis& pending) {
@@ -263,12 +266,18 @@ void Pipeline::store(PendingAnalysis& pending) {
   try {
     analysis_file::store(file, without_incomplete_timings(*outcome.analysis));
     outcome.kept = true;
-  } catch (const InputError& error) {
+  } catch (const analysis_file::CannotStore& error) {
     // Results are as good as ever, only the next run takes as long as this one.
     outcome.write_error = error.what();
+    outcome.others_can_be_written = error.is_the_assets();
     const fs::path folder = options_.cache_folder.value_or(file.parent_path());
-    if (unwritable_folders_.insert(folder).second)
-      outcome.messages.push_back(fmt::format("{}; analyses of this folder are not kept", error.what()));
+    if (error.is_the_assets())
+      outcome.messages.push_back(fmt::format("{}; this analysis is not kept", error.what()));
+    else if (unwritable_folders_.insert(folder).second)
+      outcome.messages.push_back(fmt::format(
+          "{} (choose another folder with --cache-dir, or go without with --no-cache); analyses of "
+          "this folder are not kept",
+          error.what()));
   }
 }
 

@@ -1,9 +1,11 @@
 // pipeline.h — Asset path -> analysis, through the analysis file when it is still true: the product's
 // summary.
 //
-//   analysis file valid?  -> done, neither import nor GPU is touched (with this_device_only the GPU is asked
-//   its name) import (worker)       -> Scene measure (GPU)         -> AssetAnalysis time (GPU)            ->
-//   its rendering times store analysis file   -> next run is instant
+//   analysis file valid?  -> done, without import; the GPU at most tells its name (this_device_only)
+//   import (worker)       -> Scene
+//   measure (GPU)         -> AssetAnalysis
+//   time (GPU)            -> its rendering times
+//   store analysis file   -> the next run is instant
 //
 // start() returns when nothing but start triangles and spectra are missing, so that the next asset can be
 // imported and measured while the host searches.
@@ -55,6 +57,7 @@ struct Outcome {
   bool from_file = false;                    // the analysis file was valid
   bool kept = false;                         // the analysis file is there for the next run
   std::string write_error;                   // why it could not be written, naming it; or empty
+  bool others_can_be_written = false;        // where there is a write_error
   std::optional<mesh::ImportEffort> import;  // where it was not, and the import succeeded
   std::vector<std::string> messages;  // for the log, at warning level: analysis file stale, folder read-only,
                                       // import warnings, meshes beyond a limit
@@ -88,8 +91,10 @@ class Pipeline {
   // on the device, with the results that each would have had alone. All were made by prepare() of this
   // pipeline; without Options::histograms and signals.
   std::unique_ptr<PendingPack> start_pack(std::vector<std::unique_ptr<PendingAnalysis>> assets);
-  // In the order given.
-  std::vector<Outcome> finish_pack(std::unique_ptr<PendingPack> pack);
+  // Calls `finished` for each, in the order given, as soon as it is stored: rendering is timed asset by
+  // asset, each of which may take Options::timing_budget. What `finished` throws leaves the others undone.
+  using Finished = std::function<void(std::size_t index, Outcome outcome)>;
+  void finish_pack(std::unique_ptr<PendingPack> pack, const Finished& finished);
 
   // After gpu::DeviceLost, when nothing is pending any more but what prepare() made: the next measurement
   // asks for a device again.
@@ -106,10 +111,13 @@ class Pipeline {
   void complete_together(PendingPack& pack);
   void store(PendingAnalysis& pending);
 
-  const Options options_;
-  const std::function<gpu::Device&()> device_;
+  // What others than the measuring thread may ask of the device, which that one may lose meanwhile.
+  struct KnownDevice {
+    gpu::DeviceInfo info;
+    analysis::DeviceStamp stamp;
+  };
   // Makes what depends on the device. The first to need it may be any thread.
-  void start_device();
+  std::shared_ptr<const KnownDevice> start_device();
   void find_times(PendingAnalysis& pending);
   void time(PendingAnalysis& pending);
   void keep_wanted_timings(analysis::AssetAnalysis& analysis);
@@ -117,12 +125,13 @@ class Pipeline {
   // What rendering times have to be made under.
   analysis::RenderTiming::Conditions timing_conditions();
 
+  const Options options_;
+  const std::function<gpu::Device&()> device_;
   mutable std::mutex device_mutex_;  // while it is made; what is made of it stays until forget_device()
+  std::shared_ptr<const KnownDevice> known_device_;
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<render_timing::RenderTimer> render_timer_;
   gpu::Device* gpu_ = nullptr;
-  const gpu::DeviceInfo* device_info_ = nullptr;
-  analysis::DeviceStamp device_stamp_;
   std::set<std::filesystem::path> unwritable_folders_;  // already complained about
 };
 

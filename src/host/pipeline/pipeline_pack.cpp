@@ -33,7 +33,7 @@ std::unique_ptr<PendingPack> Pipeline::start_pack(std::vector<std::unique_ptr<Pe
   return pack;
 }
 
-std::vector<Outcome> Pipeline::finish_pack(std::unique_ptr<PendingPack> pack) {
+void Pipeline::finish_pack(std::unique_ptr<PendingPack> pack, const Finished& finished) {
   if (pack->measurement_) try {
       complete_together(*pack);
     } catch (const std::bad_alloc&) {
@@ -41,14 +41,20 @@ std::vector<Outcome> Pipeline::finish_pack(std::unique_ptr<PendingPack> pack) {
       for (PendingAnalysis* asset : pack->joined_assets_)
         attempt(asset->asset_, asset->outcome_, [&] { measure(*asset); });
     }
-  std::vector<Outcome> outcomes;
-  outcomes.reserve(pack->assets_.size());
-  for (const auto& asset : pack->assets_) outcomes.push_back(finish(*asset));
-  return outcomes;
+  // No search of one beside the timing of another.
+  for (const auto& asset : pack->assets_)
+    if (is_timed_alone() && asset->measurement_)
+      attempt(asset->asset_, asset->outcome_, [&] { std::exchange(asset->measurement_, nullptr)->finish(); });
+  for (std::size_t i = 0; i < pack->assets_.size(); ++i) {
+    PendingAnalysis& asset = *pack->assets_[i];
+    if (asset.has_something_to_measure() && asset.wanted_[index_of(analysis::Metric::kRenderingTime)])
+      attempt(asset.asset_, asset.outcome_, [&] { find_times(asset); });
+    finished(i, finish(asset));
+  }
 }
 
 void Pipeline::measure_together(PendingPack& pack) {
-  start_device();
+  pack.device_ = start_device()->stamp;
   std::vector<const mesh::Scene*> scenes;
   for (const PendingAnalysis* asset : pack.joined_assets_) scenes.push_back(&asset->scene_);
   pack.joined_ = join(scenes);
@@ -80,11 +86,7 @@ void Pipeline::complete_together(PendingPack& pack) {
     const auto part = static_cast<std::size_t>(after - first.begin()) - 1;
     pack.joined_assets_[part]->degenerate_[geometry - first[part]] = std::move(triangles);
   }
-  for (PendingAnalysis* asset : pack.joined_assets_) {
-    asset->outcome_.analysis->device = device_stamp_;
-    if (asset->wanted_[index_of(analysis::Metric::kRenderingTime)])
-      attempt(asset->asset_, asset->outcome_, [&] { find_times(*asset); });
-  }
+  for (PendingAnalysis* asset : pack.joined_assets_) asset->outcome_.analysis->device = pack.device_;
 }
 
 }  // namespace scene_analyzer::pipeline

@@ -14,21 +14,19 @@ using analysis::AssetAnalysis;
 
 bool Pipeline::is_timed_alone() const {
   const std::lock_guard lock(device_mutex_);
-  return options_.metrics[index_of(analysis::Metric::kRenderingTime)] && device_info_ != nullptr &&
-         device_info_->type != gpu::DeviceType::kDiscrete;
+  return options_.metrics[index_of(analysis::Metric::kRenderingTime)] && known_device_ &&
+         known_device_->info.type != gpu::DeviceType::kDiscrete;
 }
 
 analysis::RenderTiming::Conditions Pipeline::timing_conditions() {
-  if (options_.this_device_only) start_device();
-  return {.device = options_.this_device_only ? device_stamp_ : analysis::DeviceStamp(),
+  return {.device = options_.this_device_only ? start_device()->stamp : analysis::DeviceStamp(),
           .width = options_.timing_width,
           .height = options_.timing_height,
           .steps = options_.parameters.steps};
 }
 
 bool Pipeline::can_time(Outcome& outcome) {
-  start_device();
-  const std::string reason = render_timing::why_not(*device_info_);
+  const std::string reason = render_timing::why_not(start_device()->info);
   if (!reason.empty()) outcome.messages.push_back("rendering time is not measured: " + reason);
   return reason.empty();
 }
@@ -45,7 +43,8 @@ void Pipeline::time(PendingAnalysis& pending) {
   if (!can_time(pending.outcome_)) return;
   AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis::RenderTiming::Conditions conditions = timing_conditions();
-  conditions.device = device_stamp_;
+  const auto device = start_device();
+  conditions.device = device->stamp;
   const auto progress = [&](double fraction) {
     pending.report(kTimingBegins + (kTimingEnds - kTimingBegins) * fraction, "rendering time");
   };
@@ -54,7 +53,7 @@ void Pipeline::time(PendingAnalysis& pending) {
     if (!render_timer_) render_timer_ = std::make_unique<render_timing::RenderTimer>(*gpu_);
     analysis::RenderTiming timing = time_scene(*render_timer_, pending.scene_, analysis, pending.degenerate_,
                                                conditions, options_.timing_budget, progress);
-    timing.timestamp_period_ns = device_info_->timestamp_period_ns;
+    timing.timestamp_period_ns = device->info.timestamp_period_ns;
     timing.budget_seconds = options_.timing_budget;
     describe_missing_times(analysis.asset, timing, pending.outcome_.messages);
     put_first(analysis.timings, std::move(timing));
