@@ -174,7 +174,7 @@ TEST_F(BatchTest, ListsAndGlobsNameTheLibrary) {
 }
 
 TEST_F(BatchTest, ASignalStopsItAndTheNextRunGoesOn) {
-  make_library(400);
+  make_library(200);
   RunningProgram program({"batch", "library", "--out", "out", "--metrics", kUntimedMetrics},
                          {.environment = {}, .folder = folder_.path(), .terminal = false});
   while (!program.has_ended() && journal_lines("out") < 2)
@@ -185,7 +185,7 @@ TEST_F(BatchTest, ASignalStopsItAndTheNextRunGoesOn) {
   EXPECT_THAT(stopped.err, HasSubstr("stopped"));
   const ProgramResult rest = run({"batch", "library", "--out", "out"});
   EXPECT_EQ(rest.exit_code, 0);
-  EXPECT_THAT(rest.out, AllOf(StartsWith("400 assets: 400 analysed ("), HasSubstr(" of them unchanged")));
+  EXPECT_THAT(rest.out, AllOf(StartsWith("200 assets: 200 analysed ("), HasSubstr(" of them unchanged")));
 }
 
 TEST_F(BatchTest, WrongUseIsSaidBeforeAnyWork) {

@@ -86,7 +86,7 @@ library::ProfileResult run(const BatchRequest& request, const std::vector<std::s
   events.finished = [&](const library::Record& record, bool unchanged) {
     const bool analysed = record.status == library::Status::kAnalysed;
     progress.aside([&] { log_record(record, unchanged); });
-    progress.finish_asset(std::filesystem::path(record.asset).filename().string(), analysed, unchanged);
+    progress.finish_asset(std::filesystem::path(record.asset).filename().string(), analysed);
     note_asset_done(analysed);
   };
   events.check = check_interrupt;

@@ -11,6 +11,7 @@ namespace scene_analyzer::cli {
 namespace {
 
 constexpr std::size_t kBarCells = 24;
+constexpr auto kBetweenMarks = std::chrono::seconds(10);
 
 double fraction(const LibraryState& state) {
   return state.assets == 0 ? 1 : static_cast<double>(state.done) / static_cast<double>(state.assets);
@@ -19,17 +20,20 @@ double fraction(const LibraryState& state) {
 // ", 1310/min, 53 s left, 3 not analysed"; what is not known yet is left out.
 std::string figures(const LibraryState& state) {
   std::string text;
-  const double measured = static_cast<double>(state.done - std::min(state.done, state.unchanged));
-  if (measured > 0 && state.elapsed.count() > 0) {
-    const double per_second = measured / state.elapsed.count();
-    text += fmt::format(", {:.0f}/min, {} left", per_second * 60,
-                        duration_text(static_cast<double>(state.assets - state.done) / per_second));
-  }
+  if (state.per_second > 0)
+    text += fmt::format(", {:.0f}/min, {} left", state.per_second * 60,
+                        duration_text(static_cast<double>(state.assets - state.done) / state.per_second));
   if (state.failed > 0) text += fmt::format(", {} not analysed", state.failed);
   return text;
 }
 
 }  // namespace
+
+double RecentRate::per_second(Time now, std::uint64_t done) {
+  if (now - latest_.time >= kBetweenMarks) former_ = std::exchange(latest_, {now, done});
+  const std::chrono::duration<double> seconds = now - former_.time;
+  return seconds.count() > 0 ? static_cast<double>(done - former_.done) / seconds.count() : 0;
+}
 
 std::string duration_text(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
@@ -57,18 +61,16 @@ LibraryProgress::LibraryProgress(bool enabled, std::uint64_t assets)
   state_.assets = assets;
 }
 
-void LibraryProgress::finish_asset(const std::string& name, bool analysed, bool unchanged) {
+void LibraryProgress::finish_asset(const std::string& name, bool analysed) {
   const std::lock_guard lock(status_.mutex());
   ++state_.done;
   if (!analysed) ++state_.failed;
-  if (unchanged) ++state_.unchanged;
   state_.name = name;
 }
 
-LibraryState LibraryProgress::now() const {
-  LibraryState state = state_;
-  state.elapsed = std::chrono::steady_clock::now() - begin_;
-  return state;
+LibraryState LibraryProgress::now() {
+  state_.per_second = rate_.per_second(std::chrono::steady_clock::now(), state_.done);
+  return state_;
 }
 
 MergeStatus::MergeStatus(bool enabled)

@@ -12,9 +12,25 @@ namespace scene_analyzer::cli {
 
 struct LibraryState {
   std::uint64_t assets = 0, done = 0, failed = 0;  // failed: of those done, not analysed
-  std::uint64_t unchanged = 0;                     // of those done; they take no time worth counting
-  std::chrono::duration<double> elapsed{0};
-  std::string name;  // of the asset that was finished last
+  double per_second = 0;                           // assets, of late; 0 where that is not known
+  std::string name = {};                           // of the asset that was finished last
+};
+
+// How many are done per second, over the last 10 to 20 seconds: assets that are unchanged take no time, and
+// say nothing about those that have to be measured.
+class RecentRate {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit RecentRate(Time begin) : former_{begin, 0}, latest_{begin, 0} {}
+  double per_second(Time now, std::uint64_t done);
+
+ private:
+  struct Mark {
+    Time time;
+    std::uint64_t done;
+  };
+  Mark former_, latest_;
 };
 
 // " 42% [##########              ] 840/2000 assets, 1310/min, 53 s left, 3 not analysed: chair.glb", at most
@@ -29,14 +45,14 @@ class LibraryProgress {
  public:
   LibraryProgress(bool enabled, std::uint64_t assets);
 
-  void finish_asset(const std::string& name, bool analysed, bool unchanged);
+  void finish_asset(const std::string& name, bool analysed);
   // Runs `print`, which writes to the terminal, with the bar out of the way.
   void aside(const std::function<void()>& print) { status_.aside(print); }
 
  private:
-  LibraryState now() const;
+  LibraryState now();
 
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  RecentRate rate_{std::chrono::steady_clock::now()};
   LibraryState state_;
   StatusLine status_;  // last: it draws the others
 };
