@@ -17,9 +17,10 @@ std::unique_ptr<PendingPack> Pipeline::start_pack(std::vector<std::unique_ptr<Pe
   std::vector<PendingAnalysis*> to_measure = pack->measured();
   // Sets of metrics differ where some assets have an analysis file that lacks what is asked for now: what
   // such a file holds is computed again. Those of the first are measured together, the others alone.
-  const auto others = std::ranges::stable_partition(
-      to_measure, [&](const auto* asset) { return asset->wanted_ == to_measure.front()->wanted_; });
-  pack->joined_assets_.assign(to_measure.begin(), others.begin());
+  const auto others = std::stable_partition(to_measure.begin(), to_measure.end(), [&](const auto* asset) {
+    return asset->wanted_ == to_measure.front()->wanted_;
+  });
+  pack->joined_assets_.assign(to_measure.begin(), others);
   if (pack->joined_assets_.size() < 2) pack->joined_assets_.clear();
   if (!pack->joined_assets_.empty()) try {
       measure_together(*pack);
