@@ -5,15 +5,19 @@ Copies the assets of LIBRARY (default: the collection beside the repository) und
 (--quick: 40 and 400), and compares `batch` with a process per asset under GNU xargs -P2, the second run with the
 first, the memory of the large library with that of the small one; kills a run 20 times at random moments and compares
 what it comes to with what an undisturbed one did; and merges a million meshes that RECORDS (bench/library_records.cpp)
-makes up. Prints a Markdown table. Fails when something is lost or doubled, not when a target is missed.
+makes up. Then what docs/farm.md computes with: rates by --jobs, what starting and skipping a shard takes, how unequal
+assets and shards are, bytes written. Prints Markdown tables. Fails when something is lost or doubled, not when a target
+is missed.
 """
 import argparse
 import csv
+import json
 import os
 import pathlib
 import random
 import shutil
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -26,11 +30,14 @@ EXTENSIONS = {".glb", ".gltf", ".obj", ".fbx", ".ply", ".stl"}
 KILLS = 20
 
 
+def assets_of(source):
+    assets = sorted(path for path in source.rglob("*") if path.suffix.lower() in EXTENSIONS)
+    return assets or sys.exit(f"library: no assets in {source}")
+
+
 def copy_library(source, target, count):
     """`count` assets, with what lies beside them, so that materials are found."""
-    assets = sorted(path for path in source.rglob("*") if path.suffix.lower() in EXTENSIONS)
-    if not assets:
-        sys.exit(f"library: no assets in {source}")
+    assets = assets_of(source)
     for i in range(count):
         asset = assets[i % len(assets)]
         folder = target / f"{i // len(assets):04}"
@@ -87,6 +94,10 @@ def kill_and_finish(program, library, out, seconds):
     return met
 
 
+def row2(name, value):
+    print(f"| {name} | {value} |", flush=True)
+
+
 def row(name, value, target="", met=""):
     print(f"| {name} | {value} | {target} | {met} |")
 
@@ -134,6 +145,47 @@ def merge_million(program, records, folder, meshes):
     row("the same, peak MiB", f"{table_peak:.0f}", "under 2048", verdict(table_peak < 2048))
 
 
+def shard_loads(program, folder, source, seconds_of, shards):
+    """Seconds of each of `shards` shards of the large library, from what each of its assets takes alone."""
+    out = folder / "cut"
+    run(batch(program, folder / "many", out) + ["--shard-index", "0", "--shard-count", str(shards)])
+    loads = [0.0] * shards
+    with open(out / "library.jsonl", encoding="utf-8") as lines:
+        next(lines)
+        for line in lines:
+            asset = json.loads(line)
+            loads[asset["shard"]] += seconds_of[pathlib.Path(asset["asset"]).name]
+    return loads
+
+
+def farm_figures(program, records, source, large, folder):
+    print("\n| for docs/farm.md | value |\n|---|--:|")
+    for jobs in (1, 2, 4):
+        seconds, _ = run(batch(program, folder / "many", folder / f"jobs-{jobs}") + ["--jobs", str(jobs)])
+        row2(f"assets per minute, --jobs {jobs}", f"{large / seconds * 60:.0f}")
+    one, _ = run(batch(program, folder / "many", folder / "start") + ["--shard-index", "0", "--shard-count", str(large)])
+    row2(f"a shard of one asset in a library of {large}: a, seconds", f"{one:.2f}")
+    again, _ = run(batch(program, folder / "many", folder / "jobs-4"))
+    row2("skipping a shard that is done, seconds per 1000 assets", f"{again / large * 1000:.2f}")
+    seconds_of = {}
+    for asset in copy_library(source, folder / "each", len(assets_of(source))):
+        seconds_of[asset.name], _ = run([program, "analyze", "--quiet", "--no-cache", "--metrics", METRICS, "--", asset])
+    times = list(seconds_of.values())
+    row2(f"time of {len(times)} assets alone, standard deviation / mean: c",
+         f"{statistics.pstdev(times) / statistics.mean(times):.2f}")
+    loads = shard_loads(program, folder, source, seconds_of, 32)
+    mean = statistics.mean(loads)
+    row2(f"longest and shortest of 32 shards of {large} assets, part of their mean",
+         f"{max(loads) / mean:.2f}, {min(loads) / mean:.2f}")
+    written = [path.stat().st_size for path in (folder / "jobs-4").rglob("*") if path.is_file()]
+    row2("bytes written per asset: b", f"{sum(written) / large:.0f}")
+    row2("files written per asset: w", f"{len(written) / large:.3f}")
+    subprocess.run([records, folder / "assets", str(50 * large), "1"], check=True)
+    seconds, peak = run([program, "merge", folder / "assets", "--json", folder / "assets.json"])
+    row2(f"merging {50 * large} assets of one mesh, seconds", f"{seconds:.1f}")
+    row2("the same, peak KiB per asset", f"{peak * 1024 / (50 * large):.1f}")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=pathlib.Path)
@@ -151,6 +203,7 @@ def main():
         seconds = measure(program, arguments.library, 200 // share, 2000 // share, folder)
         same = compare_killed(program, 2000 // share, folder, seconds)
         merge_million(program, records, folder, 1_000_000 // share)
+        farm_figures(program, records, arguments.library, 2000 // share, folder)
     return 0 if same else 1
 
 

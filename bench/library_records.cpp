@@ -17,6 +17,8 @@
 namespace scene_analyzer {
 namespace {
 
+constexpr std::uint64_t kBytes = 1000;  // of each asset's file
+
 analysis::GeometryAnalysis random_geometry(std::mt19937_64& random, std::uint32_t mesh) {
   const auto share = [&] { return static_cast<double>(random() % 1'000'000) / 1e6; };
   analysis::GeometryAnalysis geometry;
@@ -42,7 +44,7 @@ analysis::AssetAnalysis random_asset(std::mt19937_64& random, const std::string&
   asset.format = "generated";
   asset.computed.set();
   asset.computed.reset(index_of(analysis::Metric::kRenderingTime));
-  asset.files = {{name, true, 1000, {random(), random()}}};
+  asset.files = {{name, true, kBytes, {random(), random()}}};
   for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
     asset.geometries.push_back(random_geometry(random, mesh));
     analysis::InstanceAnalysis instance;
@@ -67,11 +69,13 @@ void write_library(const std::filesystem::path& folder, std::uint64_t assets, st
     const auto analysis = random_asset(random, names.back(), meshes);
     library::Record record{.asset = names.back(), .status = library::Status::kAnalysed};
     record.analysis = fmt::format("analyses/{:03}/{}.analysis", i % 1000, names.back());
+    record.bytes = kBytes;
+    record.metrics = manifest.metrics;
     record.content_key = analysis_file::content_key(analysis);
     record.finished = library::utc_now();
     analysis_file::store(folder / record.analysis, analysis);
     journal.add(record);
-    manifest.assets.push_back({names.back(), 1000});
+    manifest.assets.push_back({names.back(), kBytes});
     manifest.shards.push_back(0);
   }
   journal.finish(names);

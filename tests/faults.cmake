@@ -1,5 +1,5 @@
 test_binary(faults
-  SOURCES fault_test.cpp fault_rules_test.cpp device_lost_test.cpp disk_test.cpp interrupts_test.cpp out_of_memory_test.cpp ../cli/run_program.cpp
+  SOURCES fault_test.cpp fault_rules_test.cpp device_lost_test.cpp disk_test.cpp interrupts_test.cpp library_faults_test.cpp out_of_memory_test.cpp ../cli/run_program.cpp
   LINK cli nlohmann_json::nlohmann_json util
   LABELS gpu)
 # The layer is opened by Vulkan's loader, which finds it through the manifest.
