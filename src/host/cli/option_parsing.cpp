@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/byte_text.h"
 #include "base/error.h"
 
 namespace scene_analyzer::cli {
@@ -133,43 +134,9 @@ std::array<double, analysis::kMetricCount> parse_weights(std::string_view option
 }
 
 std::uint64_t parse_size(std::string_view option, std::string_view text) {
-  static constexpr std::string_view kUnits = "KMGT";
-  std::string_view digits = text;
-  double factor = 1;
-  if (!digits.empty() && kUnits.find(digits.back()) != std::string_view::npos) {
-    factor = std::exp2(10.0 * static_cast<double>(kUnits.find(digits.back()) + 1));
-    digits.remove_suffix(1);
-  }
-  const auto value = read<double>(digits);
-  constexpr double kGreatest = 0x1p60;  // also keeps the conversion below defined
-  if (!value || *value < 0 || *value * factor > kGreatest)
-    refuse(option, text, "a size such as 4096, 500M or 2G (K, M, G, T are powers of 1024)");
-  return static_cast<std::uint64_t>(*value * factor);
-}
-
-std::string nearest(std::string_view text, std::span<const std::string> candidates) {
-  std::string best;
-  // Two letters swapped or a third of a long word may be wrong; beyond that a suggestion misleads.
-  const std::size_t allowed = text.size() < 4 ? 1 : std::max<std::size_t>(2, text.size() / 3);
-  std::size_t best_distance = allowed + 1;
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein, one row at a time
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= text.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j < row.size(); ++j) {
-        const std::size_t substituted = diagonal + (text[i - 1] == candidate[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-      }
-    }
-    if (row.back() < best_distance) {
-      best_distance = row.back();
-      best = candidate;
-    }
-  }
-  return best;
+  const auto bytes = bytes_of(text);
+  if (!bytes) refuse(option, text, fmt::format("{} (K, M, G, T are powers of 1024)", kByteExamples));
+  return *bytes;
 }
 
 }  // namespace scene_analyzer::cli

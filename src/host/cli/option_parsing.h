@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "analysis/metric.h"
+#include "base/nearest.h"
 #include "mesh/scene.h"
 
 namespace scene_analyzer::cli {
@@ -38,7 +39,6 @@ std::array<double, analysis::kMetricCount> parse_weights(std::string_view option
 // "500M", "2G", "1.5G", "4096": bytes, with K, M, G, T as powers of 1024.
 std::uint64_t parse_size(std::string_view option, std::string_view text);
 
-// The candidate with the least edit distance to `text`, or "" when none is near enough to be meant.
-std::string nearest(std::string_view text, std::span<const std::string> candidates);
+using scene_analyzer::nearest;
 
 }  // namespace scene_analyzer::cli
