@@ -113,6 +113,7 @@ class AssetLoop {
         pipeline_(pipeline_options(request, exports_), [&device]() -> gpu::Device& { return device.get(); }),
         progress_(request.log != LogLevel::kQuiet, request.assets.size()),
         analyses_(request.assets.size()),
+        errors_(request.assets.size()),
         kept_(request.assets.size()) {}
 
   Analyses run() {
@@ -218,6 +219,7 @@ class AssetLoop {
     });
     all_good_ = all_good_ && outcome.analysis && !is_beyond_a_limit(*outcome.analysis);
     analyses_[done.asset] = std::move(outcome.analysis);
+    errors_[done.asset] = std::move(outcome.error);
     kept_[done.asset] = outcome.kept;
     close(done.asset, done.asset);
   }
@@ -230,15 +232,19 @@ class AssetLoop {
   }
 
   Analyses collect(const std::vector<std::size_t>& first_of) {
-    Analyses result{.assets = {}, .all_good = all_good_};
+    Analyses result{.assets = {}, .failed = {}, .all_good = all_good_};
     for (std::size_t i = first_of.size(); i-- > 0;) {
       auto& analysis = analyses_[first_of[i]];
-      if (!analysis) continue;
+      if (!analysis) {
+        result.failed.push_back({request_.assets[i], errors_[first_of[i]]});
+        continue;
+      }
       // The last to be taken, which is the first, needs no copy.
       result.assets.push_back(first_of[i] == i ? std::move(*analysis) : *analysis);
       result.assets.back().asset = request_.assets[i];
     }
     std::ranges::reverse(result.assets);
+    std::ranges::reverse(result.failed);
     return result;
   }
 
@@ -247,6 +253,7 @@ class AssetLoop {
   pipeline::Pipeline pipeline_;
   Progress progress_;
   std::vector<std::optional<analysis::AssetAnalysis>> analyses_;  // of failed and repeated ones: none
+  std::vector<std::string> errors_;                               // of failed ones
   std::vector<bool> kept_;                                        // in an analysis file
   std::size_t rows_ =
       0;  // of the report before the next asset; only right where exports make all go one by one

@@ -2,6 +2,7 @@
 // these are searched for while the next asset is imported and measured.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/analysis.h"
@@ -10,9 +11,15 @@
 
 namespace scene_analyzer::cli {
 
-// The assets that could be analysed, in the order given, and whether all went well.
+struct FailedAsset {
+  std::string asset;   // as given
+  std::string reason;  // as it was logged; mostly begins with the asset's name
+};
+
+// The assets that could be analysed, in the order given, the others, and whether all went well.
 struct Analyses {
   std::vector<analysis::AssetAnalysis> assets;
+  std::vector<FailedAsset> failed;  // in the order given
   bool all_good = true;
 };
 

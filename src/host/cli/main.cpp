@@ -11,6 +11,7 @@
 #include "cli/analyze_command.h"
 #include "cli/batch_command.h"
 #include "cli/cache_command.h"
+#include "cli/check_command.h"
 #include "cli/devices_command.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
@@ -34,6 +35,7 @@ constexpr const char* kHelp =
     "\n"
     "Commands:\n"
     "  analyze   rate every mesh of one or several assets\n"
+    "  check     compare assets with a budget; for CI\n"
     "  batch     analyse a library: folders of assets, on one machine or many\n"
     "  merge     rate such a library as one scene\n"
     "  view      look at the rated scene in a window\n"
@@ -48,13 +50,15 @@ constexpr const char* kHelp =
 
 using Command = int (*)(std::span<const std::string>);
 const std::map<std::string, Command> kCommands = {{"analyze", analyze_command}, {"batch", batch_command},
-                                                  {"cache", cache_command},     {"devices", devices_command},
-                                                  {"merge", merge_command},     {"view", view_command}};
+                                                  {"cache", cache_command},     {"check", check_command},
+                                                  {"devices", devices_command}, {"merge", merge_command},
+                                                  {"view", view_command}};
 
 int dispatch(const std::vector<std::string>& arguments) {
   if (arguments.empty())
     throw UsageError(
-        "no command is given: analyze, batch, merge, view, devices or cache; see scene-analyzer --help");
+        "no command is given: analyze, check, batch, merge, view, devices or cache; see scene-analyzer "
+        "--help");
   const std::string& name = arguments.front();
   if (name == "--help" || name == "-h" || name == "help") {
     fmt::print("{}", kHelp);

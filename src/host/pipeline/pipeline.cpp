@@ -177,7 +177,8 @@ void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   pending.outcome_.import = scene.effort;
   AssetAnalysis& analysis = pending.outcome_.analysis.emplace();
   // Hashed now, not when it is stored: what is measured is what was read.
-  if (options_.use_analysis_files) analysis.files = analysis_file::fingerprint(pending.asset_, scene.files);
+  if (options_.use_analysis_files || options_.fingerprint_files)
+    analysis.files = analysis_file::fingerprint(pending.asset_, scene.files);
   pending.unchanged_ = before == state_of(pending.asset_);
   analysis.asset = pending.asset_.string();
   analysis.format = scene.format;

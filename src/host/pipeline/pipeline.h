@@ -32,6 +32,7 @@ struct Options {
   analysis::MetricSet metrics = analysis::MetricSet().set();
   bool use_analysis_files = true;                     // --no-cache: neither read nor written
   std::optional<std::filesystem::path> cache_folder;  // --cache-dir
+  bool fingerprint_files = false;  // AssetAnalysis::files is wanted also without analysis files
   import::Limits import_limits;
   // Rendering time: pixels, and seconds for all meshes of one asset together.
   std::uint32_t timing_width = 512, timing_height = 512;
