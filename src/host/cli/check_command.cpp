@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,13 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kTiming = index_of(analysis::Metric::kRenderingTime);
+
+// Reasons mostly begin with the asset's name, which outputs put beside them.
+std::string without_name(std::string_view reason, const std::string& asset) {
+  const std::string prefix = asset + ": ";
+  if (reason.starts_with(prefix)) reason.remove_prefix(prefix.size());
+  return std::string(reason);
+}
 
 class Check {
  public:
@@ -110,7 +118,7 @@ class Check {
       } else {
         gate::AssetState& state = states_.emplace_back();
         state.path = path_of(asset);
-        state.failure = (bad++)->reason;
+        state.failure = without_name((bad++)->reason, asset);
       }
     if (request_.baseline) require_comparable();
   }

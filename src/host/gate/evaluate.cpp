@@ -78,6 +78,7 @@ class RuleCheck {
     if (!asset.failure.empty())
       return add_reason(result_, fmt::format("the asset could not be analysed: {}", asset.failure),
                         asset.path);
+    ++analysed_;
     asset_ = &asset, asset_index_ = index, baseline_ = baseline, matches_ = matches;
     for (const Limit& limit : rule_.limits)
       if (info(limit.quantity).scope == Scope::kAsset)
@@ -89,7 +90,7 @@ class RuleCheck {
     if (result_.assets == 0)
       add_reason(result_,
                  fmt::format("it applies to none of the assets ({}): its globs match nothing", assets), "");
-    else if (has_scope(rule_, false) && result_.meshes == 0 && result_.unchecked == 0)
+    else if (analysed_ > 0 && has_scope(rule_, false) && result_.meshes == 0)
       add_reason(result_, "it applies to no mesh: its globs match nothing", "");
     result_.worst = worst_.take();
     result_.verdict = result_.findings > 0    ? Verdict::kFail
@@ -187,6 +188,7 @@ class RuleCheck {
   Worst<Finding>& all_;
   Worst<Finding> worst_{kMostFindingsPerRule};
   RuleResult result_;
+  std::uint64_t analysed_ = 0;  // of result_.assets
   // The asset at hand.
   const AssetState* asset_ = nullptr;
   std::size_t asset_index_ = 0;
