@@ -17,9 +17,12 @@ set(run_program_definitions
   SCENE_ANALYZER_TEST_CACHE="${CMAKE_BINARY_DIR}/test-cache"
   SCENE_ANALYZER_TEST_LAYERS="${test_layers}")
 target_compile_definitions(cli_test PRIVATE ${run_program_definitions})
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
+add_test(NAME CiPage COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tests/gate/ci_page.py
+         $<TARGET_FILE:scene-analyzer> ${CMAKE_SOURCE_DIR}/docs/ci.md)
+set_tests_properties(CiPage PROPERTIES LABELS gpu TIMEOUT 120)
 # These need the limit of the import's memory, which a sanitizer build does not have.
 if(NOT SCENE_ANALYZER_SANITIZE)
-  find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
   add_test(NAME HostileFiles
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tests/cli/hostile_files.py $<TARGET_FILE:scene-analyzer>)
   set_tests_properties(HostileFiles PROPERTIES LABELS gpu TIMEOUT 900)

@@ -19,7 +19,7 @@ TEST(Commands, HelpTeaches) {
   const ProgramResult help = run_program({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.out, AllOf(HasSubstr("analyze"), HasSubstr("devices"), HasSubstr("cache")));
-  for (const char* command : {"analyze", "devices", "cache"}) {
+  for (const char* command : {"analyze", "check", "devices", "cache"}) {
     const ProgramResult result = run_program({command, "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, AllOf(HasSubstr("Usage:"), HasSubstr("Examples:"), HasSubstr("Exit codes:")))
