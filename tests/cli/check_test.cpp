@@ -234,6 +234,18 @@ TEST_F(CheckTest, NamesOfMeshesCannotForgeCommands) {
   EXPECT_THAT(result.out, Not(HasSubstr("\x1b")));
 }
 
+TEST_F(CheckTest, TakesFoldersOfAssets) {
+  fs::create_directories(folder_.path() / "library/sub");
+  fs::create_directories(folder_.path() / "empty");
+  folder_.write("library/cube.obj", cube_obj());
+  folder_.write("library/sub/leg.obj", leg_obj());
+  const json document =
+      json::parse(check_rule("max.triangles = 5", {"library/", "cube.obj", "--json", "-"}).out);
+  EXPECT_EQ(document["counts"]["assets"], 3);
+  EXPECT_EQ(document["findings"][0]["asset"], "library/sub/leg.obj");
+  EXPECT_EQ(check_rule("max.triangles = 5", {"empty"}).exit_code, 2);
+}
+
 TEST_F(CheckTest, AnAssetGivenTwiceIsCheckedOnce) {
   const ProgramResult result = check_rule("max.triangles = 5", {"cube.obj", "./cube.obj", "--json", "-"});
   EXPECT_EQ(json::parse(result.out)["counts"]["assets"], 1);

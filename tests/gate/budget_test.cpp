@@ -109,6 +109,8 @@ TEST(BudgetFile, NeedsRulesWithNamesAndLimits) {
   EXPECT_THAT(refusal("version = 1\n[[rule]]\nname = \"\"\nmax.triangles = 1"), HasSubstr("1 to 1000 bytes"));
   EXPECT_THAT(refusal("version = 1\n[[rule]]\nname = \"a\\u0000b\"\nmax.triangles = 1"),
               HasSubstr("\\u0000"));
+  EXPECT_THAT(refusal("version = 1\n[[rule]]\nname = \"a\\nb\"\nmax.triangles = 1"),
+              HasSubstr("control characters"));
 }
 
 TEST(BudgetFile, RefusesLimitsThatNothingCanMeetOrMiss) {

@@ -27,7 +27,7 @@ constexpr const char* kHostile =
 
 constexpr const char* kBudget = R"(version = 1
 [[rule]]
-name = "sizes, all: <&\"'>\n100%"
+name = "sizes, all: <&\"'> 100%"
 max.triangles = 50
 max.defects.total = 0
 [[rule]]

@@ -74,6 +74,9 @@ class Check {
       if (info.type == gpu::DeviceType::kCpu) {
         options_.cpu_device = info.name;
         metrics.reset(kTiming);
+        log_note(fmt::format(
+            "rendering times are not measured: {} is a CPU device; --allow-cpu-timing measures them",
+            info.name));
       }
     }
     request_.pipeline.metrics = metrics;

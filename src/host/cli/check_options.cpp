@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <iostream>
 #include <set>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 #include "cli/measuring_options.h"
 #include "cli/output_options.h"
 #include "gate/quantity.h"
+#include "library/asset_list.h"
 
 namespace scene_analyzer::cli {
 namespace {
@@ -22,14 +24,16 @@ constexpr const char* kPurpose =
     "some.\n"
     "Prints a verdict per rule, pass, fail or unchecked with the reason, and what to do about the worst "
     "findings.\n"
-    "Each asset is a scene of its own. With a baseline only what got worse since it was written fails.\n";
+    "An ASSET is a file, or a folder with everything below it; each is a scene of its own. With a baseline "
+    "only\n"
+    "what got worse since it was written fails.\n";
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  scene-analyzer check props/*.glb --init budget.toml       (a first budget, which the assets pass)\n"
-    "  scene-analyzer check props/*.glb --budget budget.toml\n"
-    "  scene-analyzer check props/*.glb --budget budget.toml --write-baseline baseline\n"
-    "  scene-analyzer check props/*.glb --budget budget.toml --baseline baseline --github --sarif out.sarif\n"
+    "  scene-analyzer check props/ --init budget.toml       (a first budget, which the assets pass)\n"
+    "  scene-analyzer check props/ --budget budget.toml\n"
+    "  scene-analyzer check props/ --budget budget.toml --write-baseline baseline\n"
+    "  scene-analyzer check props/ --budget budget.toml --baseline baseline --github --sarif out.sarif\n"
     "\n"
     "A budget:\n"
     "  version = 1\n"
@@ -59,7 +63,7 @@ Options make_options() {
   options.add(
       "Gate",
       {
-          {"budget", "the budget, TOML; only what it limits is measured", "FILE"},
+          {"budget", "the budget, TOML; only what it limits is measured, and what --metrics names", "FILE"},
           {"baseline", "what is beyond a limit fails only where it is worse than in this folder", "DIR"},
           {"write-baseline", "keep the present values in this folder, and accept them", "DIR"},
           {"strict", "rules of severity error that are unchecked fail the gate"},
@@ -84,13 +88,25 @@ Options make_options() {
   return options;
 }
 
-// Each file once: another spelling of a name is the same asset.
+// Files, and the assets of folders as `batch` finds them; each once: another spelling of a name is the same
+// asset.
 std::vector<std::string> read_assets(const CommandLine& line) {
   check_assets(line.positional(), "check");
   std::set<fs::path> known;
   std::vector<std::string> assets;
-  for (const std::string& asset : line.positional())
+  const auto add = [&](const std::string& asset) {
     if (known.insert(fs::path(asset).lexically_normal()).second) assets.push_back(asset);
+  };
+  for (const std::string& name : line.positional()) {
+    std::error_code error;
+    if (!fs::is_directory(name, error)) {
+      add(name);
+      continue;
+    }
+    const library::AssetList list = library::list_assets({name}, {}, std::cin);
+    if (list.assets.empty()) throw UsageError(fmt::format("{}: no asset lies in this folder", name));
+    for (const library::ListedAsset& asset : list.assets) add(asset.path);
+  }
   return assets;
 }
 

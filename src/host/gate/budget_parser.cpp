@@ -157,6 +157,8 @@ class BudgetParser {
     const toml::node* name = table.get("name");
     if (name == nullptr) fail(table, "a rule without a name; write name = \"what it is about\"");
     rule.name = read_text(*name, "name");
+    if (std::ranges::any_of(rule.name, [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+      fail_type(*name, "name", "a text of one line without control characters");
     if (!names_.insert(rule.name).second)
       fail(*name,
            fmt::format("there is another rule named '{}'; each needs a name of its own", shown(rule.name)));

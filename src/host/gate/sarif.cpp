@@ -28,8 +28,9 @@ ordered_json message(const std::string& text) {
   return {{"text", text}};
 }
 
-std::string id_of(const Rule& rule) {
-  return clean(rule.name);
+// As it is: what is shown of two names may be the same.
+const std::string& id_of(const Rule& rule) {
+  return rule.name;
 }
 
 std::string level_of(Severity severity) {
@@ -45,7 +46,7 @@ ordered_json rules_of(const CheckReport& report) {
                             info(limit.quantity).key, value_text(limit.quantity, limit.value));
     rules.push_back(
         {{"id", id_of(rule)},
-         {"shortDescription", message(id_of(rule))},
+         {"shortDescription", message(clean(rule.name))},
          {"fullDescription", message(limits)},
          {"help", message(fmt::format("{}, line {}: {}", clean(report.budget.file), rule.line, limits))},
          {"defaultConfiguration", {{"level", level_of(rule.severity)}}}});
