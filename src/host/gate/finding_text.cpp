@@ -29,7 +29,8 @@ std::string excess_of(const Finding& finding) {
       fmt::format("{} {}, limit {} {}", info(quantity).key, value_text(quantity, finding.value),
                   key_of(finding.limit.bound), value_text(quantity, finding.limit.value));
   if (finding.limit.bound == Bound::kMost && finding.limit.value > 0)
-    text += fmt::format(" ({:.3g} times)", finding.ratio());
+    text += finding.ratio() < 100 ? fmt::format(" ({:.3g} times)", finding.ratio())
+                                  : fmt::format(" ({:.0f} times)", finding.ratio());
   if (finding.baseline) text += fmt::format("; the baseline has {}", value_text(quantity, *finding.baseline));
   return text;
 }
