@@ -127,6 +127,14 @@ TEST(CheckJson, FollowsItsSchema) {
   EXPECT_EQ(python("report/validate_report.py", {schema, folder.write("b.json", broken.dump()).string()}), 1);
 }
 
+TEST(CheckJson, SchemaKnowsAllQuantities) {
+  const json schema = json::parse(
+      TemporaryFolder::read(std::string(SCENE_ANALYZER_SOURCE_DIR) + "/docs/schema/check-v1.schema.json"));
+  const auto keys = quantity_keys();
+  EXPECT_EQ(schema["properties"]["findings"]["items"]["properties"]["quantity"]["enum"],
+            json(std::vector<std::string>(keys.begin(), keys.end())));
+}
+
 TEST(CheckJson, CountsEverythingAndListsTheWorst) {
   const json document = json::parse(check_json(make(1200).report()));
   EXPECT_EQ(document["verdict"], "fail");
