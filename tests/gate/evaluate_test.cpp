@@ -107,7 +107,8 @@ TEST(Verdict, OfAnAssetThatFailedIsUnchecked) {
                                           asset_of("t.glb", kTable)};
   const CheckResult result = check("max.triangles = 500", assets);
   EXPECT_EQ(result.rules[0].verdict, Verdict::kUnchecked);
-  EXPECT_THAT(result.rules[0].reasons.at(0).text, HasSubstr("it is cut short"));
+  EXPECT_EQ(result.rules[0].reasons.at(0).text, "the asset could not be analysed");
+  EXPECT_EQ(result.rules[0].reasons.at(0).example, "bad.glb");
   EXPECT_EQ(result.rules[0].checked, 2U);
   EXPECT_EQ(check("max.triangles = 5", assets).rules[0].verdict, Verdict::kFail)
       << "what fails is told first";
@@ -183,9 +184,11 @@ TEST(Findings, AreCappedAndCountedInFull) {
 }
 
 TEST(Reasons, AreCappedAndCountedInFull) {
-  std::vector<AssetState> assets;
-  for (int i = 0; i < 30; ++i) assets.push_back(failed_asset("a", "reason " + std::to_string(i)));
-  const CheckResult result = check("max.triangles = 5", assets);
+  std::vector<TestMesh> meshes;
+  for (std::uint32_t i = 0; i < 30; ++i) meshes.push_back({"n", "m", 10, 0.5, i});
+  analysis::AssetAnalysis asset = analysis_of(meshes);
+  for (int i = 0; i < 30; ++i) asset.geometries[i].not_analysed = "reason " + std::to_string(i);
+  const CheckResult result = check("max.triangles = 5", {asset_of("t.glb", asset)});
   EXPECT_EQ(result.rules[0].reasons.size(), kMostReasons);
   std::uint64_t count = 0;
   for (const Reason& reason : result.rules[0].reasons) count += reason.count;

@@ -87,6 +87,7 @@ TEST(CheckTable, SaysVerdictsFindingsAndWhatToDo) {
   EXPECT_THAT(table, HasSubstr("triangles 101, limit max 50 (2.02 times): simplify the mesh"));
   EXPECT_THAT(table, HasSubstr("merge coplanar triangles"));
   EXPECT_THAT(table, HasSubstr("nothing: it applies to no mesh"));
+  EXPECT_THAT(table, HasSubstr("\ncould not be analysed:\n  a"));
   EXPECT_THAT(
       table,
       EndsWith("\ngate failed: 1 of 4 rules pass, 2 fail (3 errors, 2 warnings), 1 unchecked; 1 asset could "
@@ -124,6 +125,14 @@ TEST(CheckJson, FollowsItsSchema) {
   json broken = json::parse(check_json(make().report()));
   broken["counts"].erase("errors");
   EXPECT_EQ(python("report/validate_report.py", {schema, folder.write("b.json", broken.dump()).string()}), 1);
+}
+
+TEST(CheckJson, SchemaKnowsAllQuantities) {
+  const json schema = json::parse(
+      TemporaryFolder::read(std::string(SCENE_ANALYZER_SOURCE_DIR) + "/docs/schema/check-v1.schema.json"));
+  const auto keys = quantity_keys();
+  EXPECT_EQ(schema["properties"]["findings"]["items"]["properties"]["quantity"]["enum"],
+            json(std::vector<std::string>(keys.begin(), keys.end())));
 }
 
 TEST(CheckJson, CountsEverythingAndListsTheWorst) {
@@ -187,10 +196,13 @@ TEST(CheckSarif, EncodesPathsAndTellsFindingsApart) {
 
 TEST(GitHubAnnotations, AreTheTenWorstAndACountOfTheRest) {
   const std::string text = github_annotations(make(30).report());
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 12) << "ten findings, one asset, the rest";
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 13)
+      << "ten findings, one asset, one unchecked rule, the rest";
   EXPECT_THAT(text, StartsWith("::error file=f\xC3\xBCr uns/a"));
   EXPECT_THAT(text, HasSubstr("title=sizes%2C all%3A <&\"'>"));
   EXPECT_THAT(text, HasSubstr("100%25::"));
+  EXPECT_THAT(text, HasSubstr("::warning title=nothing::not checked: "));
+  EXPECT_THAT(github_annotations(make(30, true).report()), HasSubstr("::error title=nothing::not checked: "));
   EXPECT_THAT(text, HasSubstr("51 findings are not shown\n"));
   EXPECT_THAT(text, HasSubstr("title=could not be analysed::broken: a"));
 }
@@ -199,7 +211,7 @@ TEST(GitHubAnnotations, CannotBeForgedByNames) {
   std::istringstream lines(github_annotations(make().report()));
   for (std::string line; std::getline(lines, line);) {
     const bool is_ours = line.starts_with("::error file=") || line.starts_with("::warning file=") ||
-                         line.starts_with("::notice title=");
+                         line.starts_with("::warning title=") || line.starts_with("::notice title=");
     EXPECT_TRUE(is_ours) << line;
     const std::string properties = line.substr(2, line.find("::", 2) - 2);
     EXPECT_EQ(properties.find_first_of(":\r\x1b"), std::string::npos) << properties;

@@ -75,9 +75,8 @@ class RuleCheck {
            std::span<const std::optional<std::size_t>> matches) {
     if (!applies_to_asset(rule_, asset.path)) return;
     ++result_.assets;
-    if (!asset.failure.empty())
-      return add_reason(result_, fmt::format("the asset could not be analysed: {}", asset.failure),
-                        asset.path);
+    // Why it could not stands beside the asset, once for all rules.
+    if (!asset.failure.empty()) return add_reason(result_, "the asset could not be analysed", asset.path);
     ++analysed_;
     asset_ = &asset, asset_index_ = index, baseline_ = baseline, matches_ = matches;
     for (const Limit& limit : rule_.limits)

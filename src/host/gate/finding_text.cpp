@@ -43,7 +43,7 @@ std::string sentence(const Finding& finding) {
 std::string sentence(const Reason& reason) {
   std::string text = clean(reason.text);
   if (reason.count > 1) text = fmt::format("{} times: {}", reason.count, text);
-  if (!reason.example.empty()) text += (reason.count > 1 ? "; first " : "; ") + clean(reason.example);
+  if (!reason.example.empty()) text += (reason.count > 1 ? " (first " : " (") + clean(reason.example) + ')';
   return text;
 }
 

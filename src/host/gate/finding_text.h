@@ -15,7 +15,7 @@ std::string place_of(const Finding& finding);
 std::string excess_of(const Finding& finding);
 // place, excess and what to do.
 std::string sentence(const Finding& finding);
-// "3 values: it has no ..., first chair.glb: Leg"
+// "3 times: it has no ... (first chair.glb: Leg)"
 std::string sentence(const Reason& reason);
 
 // One line of any text: well-formed UTF-8 without controls. Needs a report::UnicodeScope.

@@ -27,6 +27,22 @@ std::string command(std::string_view level, const std::string& file, const std::
   return fmt::format("::{} {}title={}::{}\n", level, place, escaped(title, true), escaped(message, false));
 }
 
+// What nothing of failed, but was not checked either.
+std::string unchecked_rules(const CheckReport& report) {
+  std::string text;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < report.result.rules.size(); ++i) {
+    const Rule& rule = report.budget.rules[i];
+    const RuleResult& result = report.result.rules[i];
+    if (result.verdict != Verdict::kUnchecked || result.reasons.empty() || ++shown > kMostAnnotations)
+      continue;
+    const bool fails = report.strict && rule.severity == Severity::kError;
+    text += command(fails ? "error" : "warning", "", clean(rule.name),
+                    fmt::format("not checked: {}", sentence(result.reasons.front())));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string github_annotations(const CheckReport& report) {
@@ -44,6 +60,7 @@ std::string github_annotations(const CheckReport& report) {
   for (const AssetState& asset : report.assets)
     if (!asset.failure.empty() && ++failures <= kMostAnnotations)
       text += command("error", clean(asset.path), "could not be analysed", clean(asset.failure));
+  text += unchecked_rules(report);
   const std::uint64_t all = report.result.errors + report.result.warnings;
   std::string rest = summary(report);
   if (all > shown)

@@ -30,8 +30,8 @@ std::string check_json(const CheckReport& report);
 std::string check_junit(const CheckReport& report);
 // A result per finding that is listed; what was not checked is a notification of the run.
 std::string check_sarif(const CheckReport& report);
-// Workflow commands, one per line: the worst findings, assets that could not be analysed, and the count of
-// the rest.
+// Workflow commands, one per line: the worst findings, assets that could not be analysed, rules that are
+// unchecked, and the count of the rest.
 std::string github_annotations(const CheckReport& report);
 
 // "gate failed: 2 of 5 rules fail (3 errors, 1 warning), 1 unchecked"

@@ -64,6 +64,16 @@ std::string reasons(const CheckReport& report, std::size_t width) {
   return text.empty() ? text : "\nnot checked:\n" + text;
 }
 
+std::string failures(const CheckReport& report, std::size_t width) {
+  std::string text;
+  std::size_t lines = 0;
+  for (const AssetState& asset : report.assets)
+    if (!asset.failure.empty() && ++lines <= kMostTableRows)
+      text += "  " + fit(fmt::format("{}: {}", asset.path, asset.failure), width - 2) + '\n';
+  if (lines > kMostTableRows) text += fmt::format("  ... and {} more\n", lines - kMostTableRows);
+  return text.empty() ? text : "\ncould not be analysed:\n" + text;
+}
+
 std::string findings(const CheckReport& report, std::size_t width) {
   const auto& worst = report.result.worst;
   if (worst.empty()) return "";
@@ -92,7 +102,8 @@ std::string check_table(const CheckReport& report, const report::TableStyle& sty
   const report::UnicodeScope unicode;
   // Sentences are cut where a terminal ends, and whole in files and logs.
   const std::size_t width = style.width == 0 ? kDefaultWidth * 8 : std::max(kLeastWidth, style.width);
-  return rule_rows(report) + reasons(report, width) + findings(report, width) + '\n' + summary(report) + '\n';
+  return rule_rows(report) + failures(report, width) + reasons(report, width) + findings(report, width) +
+         '\n' + summary(report) + '\n';
 }
 
 }  // namespace scene_analyzer::gate
