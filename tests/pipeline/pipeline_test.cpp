@@ -381,7 +381,8 @@ TEST_F(PipelineTest, FoldersThatCannotBeWrittenAreNamedOnce) {
   Pipeline pipeline(options_, shared_device);
   const Outcome first = pipeline.analyze(strip());
   ASSERT_TRUE(first.analysis) << first.error;
-  EXPECT_THAT(first.messages, ElementsAre(AllOf(HasSubstr("/proc/no-such-folder"), HasSubstr("not kept"))));
+  EXPECT_THAT(first.messages, ElementsAre(AllOf(HasSubstr("/proc/no-such-folder"), HasSubstr("--cache-dir"),
+                                                HasSubstr("--no-cache"), HasSubstr("not kept"))));
   const Outcome second = pipeline.analyze(folder_.write("b.obj", kStrip));
   ASSERT_TRUE(second.analysis) << second.error;
   EXPECT_THAT(second.messages, IsEmpty());
