@@ -227,6 +227,12 @@ TEST_F(MergeTest, TheDeviceThatTimedAllCountsWhicheverComesFirst) {
   EXPECT_EQ(library.timing->device.name, "common");
   EXPECT_EQ(library.timing_devices, 1U);
   for (const MergedMesh& mesh : library.meshes) EXPECT_EQ(mesh.time_ns, 7.0);
+  for (auto& analysis : analyses)
+    analysis.timings.erase(analysis.timings.begin(), analysis.timings.end() - 1);
+  const std::string table = csv(library);
+  fs::remove_all(out());
+  keep(analyses);
+  EXPECT_EQ(csv(merged()), table) << "the table has the times of that device, too";
 }
 
 TEST_F(MergeTest, TimesOfOtherStepsOrSizesAreNotThoseAskedFor) {

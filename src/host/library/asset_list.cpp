@@ -35,12 +35,6 @@ bool is_wanted(const std::string& below, const Filter& filter) {
   return included && !any_matches(below, filter.exclude);
 }
 
-std::uint64_t bytes_of(const fs::path& file) {
-  std::error_code unknown;  // whoever opens it says why
-  const std::uintmax_t bytes = fs::file_size(file, unknown);
-  return unknown ? 0 : bytes;
-}
-
 struct Found {
   fs::path identity;  // the same for all names of a file
   bool is_link = false;
@@ -163,6 +157,12 @@ void add(const std::string& input, const Filter& filter, std::istream& standard_
 }
 
 }  // namespace
+
+std::uint64_t bytes_of(const fs::path& file) {
+  std::error_code unknown;  // whoever opens it says why
+  const std::uintmax_t bytes = fs::file_size(file, unknown);
+  return unknown ? 0 : bytes;
+}
 
 bool matches(std::string_view text, const std::string& glob) {
   return ::fnmatch(glob.c_str(), std::string(text).c_str(), 0) == 0;

@@ -28,6 +28,9 @@ struct AssetList {
   std::uint64_t repeated = 0;       // names that were left out, since another one leads to the same file
 };
 
+// Of the file, or of what a link leads to; 0 where it cannot be told.
+std::uint64_t bytes_of(const std::filesystem::path& file);
+
 // Whether `text` matches `glob` as a whole.
 bool matches(std::string_view text, const std::string& glob);
 

@@ -7,9 +7,19 @@ namespace scene_analyzer::library {
 using analysis::AssetAnalysis;
 using analysis::RenderTiming;
 
-LibraryTimes::Conditions LibraryTimes::kind_of(Conditions conditions) {
+namespace {
+
+RenderTiming::Conditions kind_of(RenderTiming::Conditions conditions) {
   if (conditions.device.type != "cpu") conditions.device.id.clear();
   return conditions;
+}
+
+}  // namespace
+
+void keep_times(AssetAnalysis& analysis, const std::optional<RenderTiming::Conditions>& kind) {
+  std::erase_if(analysis.timings,
+                [&](const RenderTiming& timing) { return kind_of(timing.conditions) != kind; });
+  if (!analysis.timings.empty()) analysis.timings.resize(1);
 }
 
 std::optional<std::size_t> LibraryTimes::number_of(const Conditions& kind) {
@@ -27,13 +37,6 @@ std::optional<std::size_t> LibraryTimes::first_common() const {
   return std::nullopt;
 }
 
-void LibraryTimes::keep(std::size_t kind, AssetAnalysis& analysis) {
-  std::erase_if(analysis.timings,
-                [&](const RenderTiming& timing) { return kind_of(timing.conditions) != kinds_[kind]; });
-  if (!analysis.timings.empty()) analysis.timings.resize(1);
-  for (const RenderTiming& timing : analysis.timings) ids_[kind].insert(timing.conditions.device.id);
-}
-
 void LibraryTimes::take(std::uint32_t asset, std::size_t first_mesh, AssetAnalysis& analysis) {
   if (analysis.timings.empty()) return;
   Kinds kinds;
@@ -41,6 +44,7 @@ void LibraryTimes::take(std::uint32_t asset, std::size_t first_mesh, AssetAnalys
   for (const RenderTiming& timing : analysis.timings) {
     const auto kind = number_of(kind_of(timing.conditions));
     if (!kind) continue;
+    if (!kinds[*kind]) ids_[*kind].insert(timing.conditions.device.id);
     kinds.set(*kind);
     if (!first) first = kind;
   }
@@ -48,16 +52,16 @@ void LibraryTimes::take(std::uint32_t asset, std::size_t first_mesh, AssetAnalys
   if (!first) return analysis.timings.clear();
   const std::size_t kept = first_common().value_or(*first);
   taken_.push_back({asset, static_cast<std::uint32_t>(kept), first_mesh});
-  keep(kept, analysis);
+  keep_times(analysis, kinds_[kept]);
 }
 
 std::uint32_t LibraryTimes::devices() const {
-  const auto kind = any() ? first_common() : std::nullopt;
+  const auto kind = first_common();
   return kind ? static_cast<std::uint32_t>(ids_[*kind].size()) : 0;
 }
 
 std::optional<LibraryTimes::Conditions> LibraryTimes::common() const {
-  const auto kind = any() ? first_common() : std::nullopt;
+  const auto kind = first_common();
   return kind ? std::optional(kinds_[*kind]) : std::nullopt;
 }
 
@@ -67,10 +71,6 @@ std::vector<std::pair<std::uint32_t, std::size_t>> LibraryTimes::to_take_again()
     for (const Taken& taken : taken_)
       if (taken.kind != *kind) others.emplace_back(taken.asset, taken.first_mesh);
   return others;
-}
-
-void LibraryTimes::keep_common(AssetAnalysis& analysis) {
-  if (const auto kind = first_common()) keep(*kind, analysis);
 }
 
 }  // namespace scene_analyzer::library

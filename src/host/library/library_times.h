@@ -15,9 +15,13 @@
 
 namespace scene_analyzer::library {
 
-// Takes the times of asset after asset, in one pass. Devices of one kind measure alike: which of several
-// equal graphics cards it was does not count. Processors of the same name are told apart by their number of
-// threads.
+// Of the asset's timings keeps the first on that kind of device; none without one. Devices of one kind
+// measure alike: which of several equal graphics cards it was does not count, and `kind` has no id.
+// Processors of the same name are told apart by their number of threads.
+void keep_times(analysis::AssetAnalysis& analysis,
+                const std::optional<analysis::RenderTiming::Conditions>& kind);
+
+// Takes the times of asset after asset, in one pass.
 class LibraryTimes {
  public:
   using Conditions = analysis::RenderTiming::Conditions;
@@ -31,7 +35,6 @@ class LibraryTimes {
   std::optional<Conditions> common() const;
   // Assets that kept another kind, and their first_mesh. None where nothing is common.
   std::vector<std::pair<std::uint32_t, std::size_t>> to_take_again() const;
-  void keep_common(analysis::AssetAnalysis& analysis);
   // How many devices of the common kind have timed; 0 without one.
   std::uint32_t devices() const;
 
@@ -44,13 +47,11 @@ class LibraryTimes {
     std::size_t first_mesh;
   };
 
-  static Conditions kind_of(Conditions conditions);
   std::optional<std::size_t> number_of(const Conditions& kind);
   std::optional<std::size_t> first_common() const;
-  void keep(std::size_t kind, analysis::AssetAnalysis& analysis);
 
   std::vector<Conditions> kinds_;
-  std::vector<std::set<std::string>> ids_;  // per kind, of devices that timed what was kept
+  std::vector<std::set<std::string>> ids_;  // per kind, of the first device of it that each asset has
   Kinds common_ = Kinds().set();
   std::vector<Taken> taken_;
 };

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "analysis_file/analysis_file.h"
+#include "base/error.h"
+#include "library/library_times.h"
 
 namespace scene_analyzer::library {
 namespace {
@@ -42,6 +44,15 @@ std::variant<analysis::AssetAnalysis, std::string> load_record(const std::filesy
            under.steps != manifest.parameters.steps;
   });
   analysis.asset = record.asset;
+  return std::move(analysis);
+}
+
+analysis::AssetAnalysis load_merged(const std::filesystem::path& folder, const Merged& merged,
+                                    std::size_t asset) {
+  auto loaded = load_record(folder, merged.assets[asset], merged.manifest);
+  if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
+  auto& analysis = std::get<analysis::AssetAnalysis>(loaded);
+  keep_times(analysis, merged.timing);
   return std::move(analysis);
 }
 

@@ -160,10 +160,7 @@ class Merger {
     if (merged_.mixed_timings)
       for (MergedMesh& mesh : merged_.meshes) mesh.time_ns.reset();
     for (const auto& [asset, first_mesh] : times_.to_take_again()) {
-      auto loaded = load_record(folder_, merged_.assets[asset], merged_.manifest);
-      if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
-      auto& analysis = std::get<AssetAnalysis>(loaded);
-      times_.keep_common(analysis);
+      const AssetAnalysis analysis = load_merged(folder_, merged_, asset);
       const ratings::SceneRating alone = ratings::rate(std::span(&analysis, 1), options_.ratings);
       for (std::size_t i = 0; i < alone.meshes.size(); ++i)
         merged_.meshes[first_mesh + i].time_ns = time_of(alone.meshes[i]);

@@ -1,7 +1,6 @@
 // merged_csv.cpp — The table of all meshes, asset by asset, so that no more than one analysis is in memory.
-#include <utility>
+#include <cstddef>
 
-#include "base/error.h"
 #include "library/load_record.h"
 #include "library/merge.h"
 
@@ -18,7 +17,6 @@ ratings::SceneRating rating_of(const analysis::AssetAnalysis& analysis, const Me
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     ratings::MeshRating& mesh = scene.meshes[i];
     mesh.distance.reset();
-    if (!merged.timing) mesh.rendering_time.reset();
     mesh.ratings = merged.ratings[first + i];
     mesh.relative_ratings = merged.relative_ratings[first + i];
     mesh.aggregate = merged.aggregates[first + i];
@@ -31,10 +29,8 @@ ratings::SceneRating rating_of(const analysis::AssetAnalysis& analysis, const Me
 void write_csv(const std::filesystem::path& folder, const Merged& merged, const report::Sink& sink) {
   sink(report::csv_header());
   std::size_t number = 0;
-  for (const Record& record : merged.assets) {
-    auto loaded = load_record(folder, record, merged.manifest);
-    if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
-    const auto& analysis = std::get<analysis::AssetAnalysis>(loaded);
+  for (std::size_t asset = 0; asset < merged.assets.size(); ++asset) {
+    const analysis::AssetAnalysis analysis = load_merged(folder, merged, asset);
     report::SceneReport report;
     report.parameters = merged.manifest.parameters;
     report.assets = std::span(&analysis, 1);

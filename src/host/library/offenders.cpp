@@ -7,9 +7,7 @@
 #include <map>
 #include <optional>
 #include <utility>
-#include <variant>
 
-#include "base/error.h"
 #include "library/load_record.h"
 #include "library/merge.h"
 
@@ -57,9 +55,7 @@ void add_names(const std::filesystem::path& folder, const Merged& merged, Offend
     const MergedMesh& mesh = merged.meshes[offender->mesh];
     if (mesh.asset != asset) {
       if (check) check();
-      auto loaded = load_record(folder, merged.assets[mesh.asset], merged.manifest);
-      if (const auto* reason = std::get_if<std::string>(&loaded)) throw InputError(*reason);
-      analysis = std::get<analysis::AssetAnalysis>(std::move(loaded));
+      analysis = load_merged(folder, merged, mesh.asset);
       asset = mesh.asset;
     }
     const auto& instance = analysis.instances.at(mesh.instance);

@@ -6,13 +6,13 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "analysis_file/analysis_file.h"
 #include "base/error.h"
 #include "gpu/error.h"
+#include "library/asset_list.h"
 #include "library/import_pool.h"
 #include "pipeline/pending_pack.h"
 
@@ -206,9 +206,6 @@ class Profile {
     record.asset = assets_[asset];
     record.finished = utc_now();
     record.metrics = options_.pipeline.metrics;
-    std::error_code unknown;  // as when it was listed
-    record.bytes = std::filesystem::file_size(record.asset, unknown);
-    if (unknown) record.bytes = 0;
     record.seconds = seconds;
     if (outcome.import) record.import_seconds = outcome.import->seconds;
     record.warning_count = outcome.messages.size();
@@ -216,6 +213,7 @@ class Profile {
                            outcome.messages.begin() +
                                static_cast<std::ptrdiff_t>(std::min(outcome.messages.size(), kMostWarnings)));
     if (!outcome.analysis) {
+      record.bytes = bytes_of(record.asset);
       record.reason = outcome.error;
       return record;
     }

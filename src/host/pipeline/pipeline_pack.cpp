@@ -43,8 +43,9 @@ void Pipeline::finish_pack(std::unique_ptr<PendingPack> pack, const Finished& fi
         attempt(asset->asset_, asset->outcome_, [&] { measure(*asset); });
     }
   // No search of one beside the timing of another.
+  const bool alone = is_timed_alone();
   for (const auto& asset : pack->assets_)
-    if (is_timed_alone() && asset->measurement_)
+    if (alone && asset->measurement_)
       attempt(asset->asset_, asset->outcome_, [&] { std::exchange(asset->measurement_, nullptr)->finish(); });
   for (std::size_t i = 0; i < pack->assets_.size(); ++i) {
     PendingAnalysis& asset = *pack->assets_[i];
