@@ -18,6 +18,7 @@
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
 #include "cli/mesh_files.h"
+#include "cli/outputs.h"
 #include "cli/picture_files.h"
 #include "cli/run_state.h"
 #include "cli/terminal.h"
@@ -62,29 +63,20 @@ void print(const std::string& text) {
     throw InputError("standard output cannot be written");
 }
 
-// Each output is tried: a full disk for one of them is no reason to lose the others.
 bool write_outputs(const AnalyzeRequest& request, const report::SceneReport& report) {
-  bool good = true;
-  const auto attempt = [&](const auto& write) {
-    try {
-      write();
-    } catch (const InputError& error) {
-      log_error(error.what());
-      good = false;
-    }
-  };
-  if (request.json) attempt([&] { report::write_file(*request.json, report::json(report)); });
-  if (request.csv) attempt([&] { report::write_file(*request.csv, report::csv(report)); });
+  Outputs outputs;
+  if (request.json) outputs.attempt([&] { report::write_file(*request.json, report::json(report)); });
+  if (request.csv) outputs.attempt([&] { report::write_file(*request.csv, report::csv(report)); });
   if (request.table() && !report.assets.empty()) {
     report::TableStyle style;
     style.color = wants_color(STDOUT_FILENO);
     style.width = terminal_width(STDOUT_FILENO);
-    attempt([&] {
+    outputs.attempt([&] {
       print(report::table(report, style));
       if (request.defects) print('\n' + report::defect_table(report, style));
     });
   }
-  return good;
+  return outputs.are_good();
 }
 
 // What the validation layer says, where it is on.

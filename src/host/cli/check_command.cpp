@@ -18,6 +18,7 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/lazy_device.h"
+#include "cli/outputs.h"
 #include "cli/run_state.h"
 #include "gate/baseline_file.h"
 #include "gate/init_budget.h"
@@ -51,10 +52,11 @@ class Check {
     analyze();
     for (const std::string& message : validation_) log_error(message);
     if (!validation_.empty()) return kUnusable;  // wrong use of the device makes every figure doubtful
-    bool written = true;
-    if (request_.write_baseline) written = write_baselines();
-    if (request_.init) written = write_init() && written;
-    const bool failed = budget_ && judge(written);
+    Outputs outputs;
+    if (request_.write_baseline) outputs.attempt([&] { write_baselines(); });
+    if (request_.init) outputs.attempt([&] { write_init(); });
+    const bool failed = budget_ && judge(outputs);
+    const bool written = outputs.are_good();
     if (written) note_report_written();
     if (failed) return kGateFailed;
     return written && all_good_ ? kSuccess : kInputFailed;
@@ -138,49 +140,34 @@ class Check {
         gate::require_comparable(before->second, baseline_now(state));
   }
 
-  bool write_baselines() {
-    try {
-      for (const gate::AssetState& state : states_) {
-        check_interrupt();
-        if (!state.failure.empty()) continue;
-        gate::AssetBaseline baseline = baseline_now(state);
-        gate::write_baseline(*request_.write_baseline, baseline);
-        baselines_.insert_or_assign(state.path, std::move(baseline));
-      }
-      options_.baselines = &baselines_;
-      log_note(
-          fmt::format("{}: baseline of {} assets", request_.write_baseline->string(), baselines_.size()));
-      return true;
-    } catch (const InputError& error) {
-      log_error(error.what());
-      return false;
+  void write_baselines() {
+    for (const gate::AssetState& state : states_) {
+      check_interrupt();
+      if (!state.failure.empty()) continue;
+      gate::AssetBaseline baseline = baseline_now(state);
+      gate::write_baseline(*request_.write_baseline, baseline);
+      baselines_.insert_or_assign(state.path, std::move(baseline));
     }
+    options_.baselines = &baselines_;
+    log_note(fmt::format("{}: baseline of {} assets", request_.write_baseline->string(), baselines_.size()));
   }
 
-  bool write_init() {
-    if (std::ranges::all_of(states_, [](const auto& state) { return !state.failure.empty(); })) {
-      log_error(fmt::format("{} is not written: no asset could be analysed", request_.init->string()));
-      return false;
-    }
-    try {
-      report::write_file(*request_.init, gate::init_budget(states_));
-      if (*request_.init != "-") log_note(fmt::format("{} is written", request_.init->string()));
-      return true;
-    } catch (const InputError& error) {
-      log_error(error.what());
-      return false;
-    }
+  void write_init() const {
+    if (std::ranges::all_of(states_, [](const auto& state) { return !state.failure.empty(); }))
+      throw InputError(fmt::format("{} is not written: no asset could be analysed", request_.init->string()));
+    report::write_file(*request_.init, gate::init_budget(states_));
+    if (*request_.init != "-") log_note(fmt::format("{} is written", request_.init->string()));
   }
 
   // Whether the gate failed.
-  bool judge(bool& written) {
+  bool judge(Outputs& outputs) {
     const gate::CheckResult result = gate::evaluate(*budget_, states_, options_);
     const gate::CheckReport report{.budget = *budget_,
                                    .assets = states_,
                                    .result = result,
                                    .baseline = request_.baseline ? request_.baseline->string() : "",
                                    .strict = request_.strict};
-    written = write_check(request_, report) && written;
+    write_check(request_, report, outputs);
     return result.failed;
   }
 

@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "base/error.h"
-#include "cli/logging.h"
 #include "cli/terminal.h"
 #include "report/report.h"
 
@@ -29,21 +27,11 @@ std::string printed(const CheckRequest& request, const gate::CheckReport& report
 
 }  // namespace
 
-bool write_check(const CheckRequest& request, const gate::CheckReport& report) {
-  bool good = true;
-  const auto attempt = [&](const auto& write) {
-    try {
-      write();
-    } catch (const InputError& error) {
-      log_error(error.what());
-      good = false;
-    }
-  };
-  if (request.json) attempt([&] { report::write_file(*request.json, gate::check_json(report)); });
-  if (request.junit) attempt([&] { report::write_file(*request.junit, gate::check_junit(report)); });
-  if (request.sarif) attempt([&] { report::write_file(*request.sarif, gate::check_sarif(report)); });
-  if (request.table()) attempt([&] { report::write_file("-", printed(request, report)); });
-  return good;
+void write_check(const CheckRequest& request, const gate::CheckReport& report, Outputs& outputs) {
+  if (request.json) outputs.attempt([&] { report::write_file(*request.json, gate::check_json(report)); });
+  if (request.junit) outputs.attempt([&] { report::write_file(*request.junit, gate::check_junit(report)); });
+  if (request.sarif) outputs.attempt([&] { report::write_file(*request.sarif, gate::check_sarif(report)); });
+  if (request.table()) outputs.attempt([&] { report::write_file("-", printed(request, report)); });
 }
 
 }  // namespace scene_analyzer::cli

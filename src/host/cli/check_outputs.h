@@ -2,12 +2,12 @@
 #pragma once
 
 #include "cli/check_options.h"
+#include "cli/outputs.h"
 #include "gate/outputs.h"
 
 namespace scene_analyzer::cli {
 
-// Table, files and annotations, as far as they were asked for. Each is tried; logs what is wrong and returns
-// whether all could be written.
-bool write_check(const CheckRequest& request, const gate::CheckReport& report);
+// Table, files and annotations, as far as they were asked for.
+void write_check(const CheckRequest& request, const gate::CheckReport& report, Outputs& outputs);
 
 }  // namespace scene_analyzer::cli

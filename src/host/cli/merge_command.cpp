@@ -12,6 +12,7 @@
 #include "cli/library_progress.h"
 #include "cli/logging.h"
 #include "cli/merge_options.h"
+#include "cli/outputs.h"
 #include "cli/terminal.h"
 #include "library/merge.h"
 #include "report/report.h"
@@ -37,29 +38,20 @@ std::optional<library::Merged> merge(const MergeRequest& request) {
   }
 }
 
-// Each output is tried: a full disk for one of them is no reason to lose the others.
 bool write_outputs(const MergeRequest& request, const library::Merged& merged) {
-  bool good = true;
-  const auto attempt = [&](const auto& write) {
-    try {
-      write();
-    } catch (const InputError& error) {
-      log_error(error.what());
-      good = false;
-    }
-  };
+  Outputs outputs;
   library::Offenders offenders;
   bool are_named = false;
   if (request.json || request.table())
-    attempt([&] {
+    outputs.attempt([&] {
       offenders = library::top_offenders(request.folder, merged, request.top, check_interrupt);
       are_named = true;
     });
   if (request.json && are_named)
-    attempt(
+    outputs.attempt(
         [&] { report::write_file(*request.json, library::summary_json(merged, offenders, request.top)); });
   if (request.csv)
-    attempt([&] {
+    outputs.attempt([&] {
       report::write_file(*request.csv, [&](const report::Sink& sink) {
         library::write_csv(request.folder, merged, [&](std::string_view bytes) {
           check_interrupt();
@@ -68,11 +60,11 @@ bool write_outputs(const MergeRequest& request, const library::Merged& merged) {
       });
     });
   if (request.table() && are_named)
-    attempt([&] {
+    outputs.attempt([&] {
       const report::TableStyle style{.color = false, .width = terminal_width(STDOUT_FILENO), .max_rows = 0};
       report::write_file("-", library::summary_table(merged, offenders, request.top, style));
     });
-  return good;
+  return outputs.are_good();
 }
 
 }  // namespace

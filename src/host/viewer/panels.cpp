@@ -16,10 +16,6 @@ namespace {
 constexpr int kNameColumn = 0, kTrianglesColumn = 1, kAggregateColumn = 2, kFirstMetricColumn = 3;
 constexpr std::size_t kMostMessages = 4;
 
-std::string number_or_dash(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4f}", *value) : "-";
-}
-
 // What one column of one row holds, for sorting; absent values come last.
 std::optional<double> sort_value(const ReviewedScene& scene, std::size_t row, int column) {
   const ratings::MeshRating& mesh = scene.rating().meshes[row];

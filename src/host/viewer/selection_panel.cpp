@@ -17,10 +17,6 @@ using report::Extremes;
 constexpr ImU32 kBracket = IM_COL32(255, 120, 0, 255);
 constexpr ImU32 kAreas = IM_COL32(90, 160, 235, 255), kMagnitudes = IM_COL32(235, 130, 90, 255);
 
-std::string number_or_dash(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4f}", *value) : "-";
-}
-
 // Bands from the least to the greatest of each column, over 0; at least a pixel high, so that equal values
 // make a line.
 void draw_curve(const std::vector<Extremes>& columns, double least_top, ImU32 color) {
