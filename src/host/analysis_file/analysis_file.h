@@ -14,6 +14,7 @@
 
 #include "analysis/analysis.h"
 #include "base/error.h"
+#include "mesh/asset_source.h"
 
 namespace scene_analyzer::analysis_file {
 
@@ -27,7 +28,7 @@ std::filesystem::path path_for(const std::filesystem::path& asset,
 // folder is opened only if `referenced` says that the import found it. The asset's own name and repeated
 // paths count once. Throws InputError when the asset itself cannot be read. Cost: one pass over the bytes,
 // constant memory.
-std::vector<analysis::FileFingerprint> fingerprint(const std::filesystem::path& asset,
+std::vector<analysis::FileFingerprint> fingerprint(const mesh::AssetSource& asset,
                                                    const std::vector<mesh::ReferencedFile>& referenced);
 
 // The content key: XXH3-128 over fingerprints, the parameters that change results, and the program version;
@@ -48,7 +49,7 @@ std::variant<analysis::AssetAnalysis, Unusable> load(const std::filesystem::path
 // caller's concern, and so are the conditions of rendering times. The result carries `asset` and
 // `parameters` as given here; the file's time of modification becomes now, for prune().
 std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem::path& file,
-                                                           const std::filesystem::path& asset,
+                                                           const mesh::AssetSource& asset,
                                                            const analysis::Parameters& parameters);
 
 class CannotStore : public InputError {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <optional>
 #include <system_error>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -37,14 +39,36 @@ bool leaves_folder(const std::filesystem::path& name) {
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
-analysis::FileFingerprint fingerprint_reference(const std::filesystem::path& folder,
-                                                const mesh::ReferencedFile& reference) {
+// Where the files of an asset lie.
+class Places {
+ public:
+  explicit Places(const mesh::AssetSource& asset) : folder_(asset.file.parent_path()) {
+    if (!asset.file_names) return;
+    numbers_.emplace();
+    for (std::size_t i = 1; i < asset.file_names->size(); ++i) numbers_->emplace((*asset.file_names)[i], i);
+  }
+  // Nothing where there is no such name.
+  std::optional<std::filesystem::path> find(const std::string& name) const {
+    if (!numbers_) return folder_ / name;
+    const auto entry = numbers_->find(name);
+    if (entry == numbers_->end()) return std::nullopt;
+    return folder_ / std::to_string(entry->second);
+  }
+
+ private:
+  const std::filesystem::path folder_;
+  std::optional<std::unordered_map<std::string, std::size_t>> numbers_;  // where files have numbers for names
+};
+
+analysis::FileFingerprint fingerprint_reference(const Places& places, const mesh::ReferencedFile& reference) {
   const analysis::FileFingerprint missing{reference.path, false, 0, {}};
   if (reference.path.find('\0') != std::string::npos) return missing;
   // An asset must not make us read files elsewhere that its import was not given: only those count there.
   if (leaves_folder(reference.path) && !reference.found) return missing;
+  const auto place = places.find(reference.path);
+  if (!place) return missing;
   try {
-    return read_fingerprint(folder / reference.path, reference.path);
+    return read_fingerprint(*place, reference.path);
   } catch (const std::system_error&) {
     return missing;  // unreadable and absent are the same to an analysis, and a later change of it is noticed
   }
@@ -57,20 +81,21 @@ void add_text(std::string& bytes, std::string_view text) {
 
 }  // namespace
 
-std::vector<analysis::FileFingerprint> fingerprint(const std::filesystem::path& asset,
+std::vector<analysis::FileFingerprint> fingerprint(const mesh::AssetSource& asset,
                                                    const std::vector<mesh::ReferencedFile>& referenced) {
-  const std::string own_name = asset.filename().string();
+  const std::string own_name = asset.file_name();
   std::vector<analysis::FileFingerprint> fingerprints;
   try {
-    fingerprints.push_back(read_fingerprint(asset, own_name));
+    fingerprints.push_back(read_fingerprint(asset.file, own_name));
   } catch (const std::system_error& error) {
-    throw InputError("'" + asset.string() + "' cannot be read: " + files::describe(error.code()));
+    throw InputError("'" + asset.name + "' cannot be read: " + files::describe(error.code()));
   }
   std::unordered_set<std::string> seen = {
       own_name};  // importers list the asset itself, and shared textures twice
+  const Places places(asset);
   for (const mesh::ReferencedFile& reference : referenced)
     if (!reference.path.empty() && seen.insert(reference.path).second)
-      fingerprints.push_back(fingerprint_reference(asset.parent_path(), reference));
+      fingerprints.push_back(fingerprint_reference(places, reference));
   return fingerprints;
 }
 

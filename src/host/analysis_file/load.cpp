@@ -76,8 +76,8 @@ std::string change_of(const analysis::FileFingerprint& stored, const analysis::F
 
 // Hashes everything the results depend on again. Throws InputError when the asset cannot be read.
 std::optional<std::string> file_reason(const analysis::AssetAnalysis& analysis,
-                                       const std::filesystem::path& asset) {
-  const std::string name = asset.filename().string();
+                                       const mesh::AssetSource& asset) {
+  const std::string name = asset.file_name();
   if (analysis.files.front().path != name)
     return "belongs to another asset ('" + analysis.files.front().path + "')";
   std::vector<mesh::ReferencedFile> references;
@@ -104,7 +104,7 @@ std::variant<analysis::AssetAnalysis, Unusable> load(const std::filesystem::path
 }
 
 std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem::path& file,
-                                                           const std::filesystem::path& asset,
+                                                           const mesh::AssetSource& asset,
                                                            const analysis::Parameters& parameters) {
   auto loaded = load_stored(file);
   if (auto* unusable = std::get_if<Unusable>(&loaded)) return *unusable;
@@ -119,7 +119,7 @@ std::variant<analysis::AssetAnalysis, Unusable> load_valid(const std::filesystem
     return because(std::string("cannot be compared with its asset: ") + error.what());
   }
   touch(file);
-  stored.analysis.asset = asset.string();
+  stored.analysis.asset = asset.name;
   stored.analysis.parameters = parameters;
   return std::move(stored.analysis);
 }

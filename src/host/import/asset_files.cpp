@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <system_error>
+#include <utility>
 
 namespace scene_analyzer::import {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Stands for the asset's folder where its files lie under other names: references with ".." lead out of it.
+constexpr const char* kNamedFolder = "/asset";
 
 bool is_url(std::string_view text) {
   const std::size_t colon = text.find("://");
@@ -71,28 +75,44 @@ std::string decode_percent(std::string_view text) {
   return decoded;
 }
 
-AssetFiles::AssetFiles(std::string asset_name) : asset_(std::move(asset_name)), folder_(fs::current_path()) {
+AssetFiles::AssetFiles(std::string asset_name)
+    : asset_(std::move(asset_name)), asset_path_(asset_), folder_(fs::current_path()) {
   record(asset_, true);
+}
+
+AssetFiles::AssetFiles(std::string asset_path, const mesh::FileNames& names)
+    : asset_(names.at(0)), asset_path_(std::move(asset_path)), folder_(kNamedFolder), paths_(std::in_place) {
+  for (std::size_t i = 1; i < names.size(); ++i) paths_->emplace(names[i], std::to_string(i));
+  record(asset_, true);
+}
+
+std::string AssetFiles::path_of(const std::string& name) const {
+  if (!paths_) return is_file(name) ? name : std::string();
+  const auto entry = paths_->find(name);
+  return entry == paths_->end() ? std::string() : entry->second;
 }
 
 AssetFiles::Found AssetFiles::look_up(std::string_view text) const {
   // The asset's own name is taken as it is: it may hold any character, and be a link to anywhere.
-  if (text == asset_) return {Reference::Kind::kInside, "./" + asset_};
-  const Found found = look_up_name(text);
-  if (found.path.empty() || !leads_out(folder_, found.path)) return found;
-  return {Reference::Kind::kOutside, {}};
+  if (text == asset_) return {Reference::Kind::kInside, "./" + asset_path_, asset_};
+  Found found = look_up_name(text);
+  if (found.path.empty() || paths_ || !leads_out(folder_, found.path)) return found;
+  return {Reference::Kind::kOutside, {}, {}};
 }
 
 AssetFiles::Found AssetFiles::look_up_name(std::string_view text) const {
-  const Reference plain = resolve_reference(folder_, text);
-  if (plain.kind != Reference::Kind::kInside || is_file(plain.path)) return {plain.kind, plain.path};
+  const auto found = [this](const Reference& reference) -> Found {
+    std::string path = reference.kind == Reference::Kind::kInside ? path_of(reference.path) : std::string();
+    return {reference.kind, std::move(path), reference.path};
+  };
+  const Found plain = found(resolve_reference(folder_, text));
+  if (plain.kind != Reference::Kind::kInside || !plain.path.empty()) return plain;
   if (text.find('%') != std::string_view::npos) {
-    const Reference decoded = resolve_reference(folder_, decode_percent(text));
+    const Found decoded = found(resolve_reference(folder_, decode_percent(text)));
     // "%2e%2e/" is as much a way out as "../" is.
-    if (decoded.kind != Reference::Kind::kInside || is_file(decoded.path))
-      return {decoded.kind, decoded.path};
+    if (decoded.kind != Reference::Kind::kInside || !decoded.path.empty()) return decoded;
   }
-  return {Reference::Kind::kInside, {}};
+  return {Reference::Kind::kInside, {}, {}};
 }
 
 AssetFiles::Found AssetFiles::find(std::string_view text) {
@@ -103,19 +123,19 @@ AssetFiles::Found AssetFiles::find(std::string_view text) {
   else if (found.path.empty())
     record(resolve_reference(folder_, text).path, false);
   else
-    record(found.path, true);
+    record(found.name, true);
   return found;
 }
 
 AssetFiles::Found AssetFiles::find_guess(std::string_view text) {
   Found found = look_up(text);
-  if (!found.path.empty() && text != asset_) record(found.path, true);
+  if (!found.path.empty() && text != asset_) record(found.name, true);
   return found;
 }
 
-void AssetFiles::record(const std::string& path, bool found) {
-  const auto [entry, is_new] = position_.try_emplace(path, files_.size());
-  if (is_new) files_.push_back({path, found});
+void AssetFiles::record(const std::string& name, bool found) {
+  const auto [entry, is_new] = position_.try_emplace(name, files_.size());
+  if (is_new) files_.push_back({name, found});
 }
 
 bool AssetFiles::readable(const std::string& path) {

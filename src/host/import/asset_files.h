@@ -6,12 +6,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/asset_source.h"
 #include "mesh/scene.h"
 
 namespace scene_analyzer::import {
@@ -35,14 +37,19 @@ class AssetFiles {
   // The folder is the current directory: names are opened relative to it. Throws
   // std::filesystem::filesystem_error.
   explicit AssetFiles(std::string asset_name);
+  // The same where files lie under other names; the asset's own is `asset_path` there.
+  AssetFiles(std::string asset_path, const mesh::FileNames& names);
 
-  // The asset's own name below its folder.
+  // The asset's own name below its folder,
   const std::string& asset_name() const { return asset_; }
+  // and to open it. The same unless files lie under other names.
+  const std::string& asset_path() const { return asset_path_; }
 
   struct Found {
     Reference::Kind kind = Reference::Kind::kInside;
     std::string path;  // to open it, relative to the folder; empty when there is no such regular file or it
                        // is refused
+    std::string name;  // what it is called, relative to the folder; where there is a path
   };
   // Looks a reference up (as it stands, then with '%' escapes decoded) and records the answer.
   Found find(std::string_view reference);
@@ -63,10 +70,12 @@ class AssetFiles {
  private:
   Found look_up(std::string_view reference) const;
   Found look_up_name(std::string_view reference) const;  // without regard to links
-  void record(const std::string& path, bool found);
+  std::string path_of(const std::string& name) const;    // empty when there is no such regular file
+  void record(const std::string& name, bool found);
 
-  std::string asset_;
+  std::string asset_, asset_path_;
   std::filesystem::path folder_;
+  std::optional<std::unordered_map<std::string, std::string>> paths_;  // by name, where these differ
   std::vector<mesh::ReferencedFile> files_;
   std::unordered_map<std::string, std::size_t> position_;
   std::set<std::string> refused_;

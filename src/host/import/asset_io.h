@@ -22,7 +22,7 @@ class AssetIo : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (mode == nullptr || mode[0] != 'r') return nullptr;
     const AssetFiles::Found found = find(file);
-    if (!replacement_.empty() && found.path == "./" + files_.asset_name())
+    if (!replacement_.empty() && found.path == "./" + files_.asset_path())
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(replacement_.data()),
                                         replacement_.size());
     return found.path.empty() ? nullptr : DefaultIOSystem::Open(found.path.c_str(), mode);

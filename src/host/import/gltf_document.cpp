@@ -173,14 +173,14 @@ bool is_version_1(const json& root) {
 }  // namespace
 
 std::optional<GltfDocument> open_gltf(const AssetFiles& files, std::vector<std::string>& warnings) {
-  if (!is_gltf(files.asset_name())) return std::nullopt;
+  if (!is_gltf(files.asset_path())) return std::nullopt;
   GltfDocument document;
-  const std::string_view text = document.files.emplace_back("./" + files.asset_name()).text();
+  const std::string_view text = document.files.emplace_back("./" + files.asset_path()).text();
   std::optional<Container> container;
   if (text.starts_with("glTF")) {
     container = open_container(text, warnings);
     if (!container) return std::nullopt;
-  } else if (files.asset_name().ends_with('f') || files.asset_name().ends_with('F') ||
+  } else if (files.asset_path().ends_with('f') || files.asset_path().ends_with('F') ||
              text.starts_with('{')) {
     container = Container{text, std::nullopt};
   } else {

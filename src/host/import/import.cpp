@@ -52,19 +52,19 @@ void check_extension(const fs::path& asset) {
       "formats of Assimp");
 }
 
-// The bulk of a .gltf lies beside it.
-std::uint64_t bytes_beside(const fs::path& asset) {
-  if (asset.extension() != ".gltf") return 0;
+// The bulk of a .gltf lies beside it, also under a number.
+std::uint64_t bytes_beside(const mesh::AssetSource& asset) {
+  if (asset.file.extension() != ".gltf") return 0;
   std::uint64_t bytes = 0;
   std::error_code ignored;  // an unreadable folder only makes the limit tighter
-  const fs::path folder = asset.has_parent_path() ? asset.parent_path() : ".";
+  const fs::path folder = asset.file.has_parent_path() ? asset.file.parent_path() : ".";
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
-    if (entry->path().extension() == ".bin" && entry->is_regular_file(ignored))
+    if ((asset.file_names || entry->path().extension() == ".bin") && entry->is_regular_file(ignored))
       bytes += entry->file_size(ignored);
   return bytes;
 }
 
-Limits derive(Limits limits, const fs::path& asset, std::uint64_t asset_bytes) {
+Limits derive(Limits limits, const mesh::AssetSource& asset, std::uint64_t asset_bytes) {
   if (limits.memory_bytes != 0) return limits;
   const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                        static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -73,19 +73,19 @@ Limits derive(Limits limits, const fs::path& asset, std::uint64_t asset_bytes) {
   return limits;
 }
 
-mesh::Scene import_once(const fs::path& asset, const Limits& limits, Textures textures) {
+mesh::Scene import_once(const mesh::AssetSource& asset, const Limits& limits, Textures textures) {
   const Answer answer = run_worker(asset, limits, textures);
   wire::Reader reader(answer.memory);
   if (reader.status() != wire::Status::kScene) throw InputError(clean_text(reader.string(), 2048));
   mesh::Scene scene = read_scene(reader);
-  scene.asset = asset.string();
+  scene.asset = asset.name;
   scene.storage = answer.owner;
   scene.effort = answer.effort;
   return scene;
 }
 
 // Decoders of images are as easily crashed as importers; the geometry must not be lost with the textures.
-mesh::Scene import_readable(const fs::path& asset, const Limits& limits, Textures textures) {
+mesh::Scene import_readable(const mesh::AssetSource& asset, const Limits& limits, Textures textures) {
   try {
     return import_once(asset, limits, textures);
   } catch (const WorkerFailure& error) {
@@ -125,11 +125,11 @@ std::vector<std::string> missing_isolation() {
   return missing;
 }
 
-mesh::Scene import_asset(const fs::path& asset, const Limits& limits, Textures textures) {
-  const std::string name = clean_text(asset.string(), 4096);
+mesh::Scene import_asset(const mesh::AssetSource& asset, const Limits& limits, Textures textures) {
+  const std::string name = clean_text(asset.name, 4096);
   try {
-    const std::uint64_t bytes = check_is_readable_file(asset);
-    check_extension(asset);
+    const std::uint64_t bytes = check_is_readable_file(asset.file);
+    check_extension(asset.file);
     return import_readable(asset, derive(limits, asset, bytes), textures);
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());

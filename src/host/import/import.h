@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "mesh/asset_source.h"
 #include "mesh/scene.h"
 
 namespace scene_analyzer::import {
@@ -46,11 +47,11 @@ enum class Textures : std::uint8_t {
   kDecode,  // PNG, JPEG, BMP, TGA, GIF (its first picture) and PSD become pixels
 };
 
-// Reads `asset`. Throws InputError naming the file and the reason: missing, a folder, empty, unsupported
-// format, Assimp's own message, a missing .bin, a required glTF extension that is not on the tested list, a
-// crash (signal name) or an exceeded limit; Stopped. An asset without any triangle is returned, not refused.
-// Cost: linear in the file; the Scene's arrays live in the shared memory that the worker filled, no copy is
-// made.
+// Reads `asset`, whose files may lie under other names (mesh/asset_source.h). Throws InputError naming the
+// file and the reason: missing, a folder, empty, unsupported format, Assimp's own message, a missing .bin, a
+// required glTF extension that is not on the tested list, a crash (signal name) or an exceeded limit;
+// Stopped. An asset without any triangle is returned, not refused. Cost: linear in the file; the Scene's
+// arrays live in the shared memory that the worker filled, no copy is made.
 //
 // Textures::kDecode: embedded textures, and files in the asset's folder, each once, one after the other,
 // within the same limits; pictures of more than 16384 pixels a side or 64 Mi pixels are not tried. What
@@ -58,7 +59,7 @@ enum class Textures : std::uint8_t {
 // started once more, without textures. Cost: some 25 ms per million pixels of a file, twice that with 16 bits
 // per channel; at most 4 MiB of shared memory per texture and 2 GiB in all; and while a picture is decoded,
 // up to 20 bytes per pixel of the worker's memory.
-mesh::Scene import_asset(const std::filesystem::path& asset, const Limits& limits = {},
+mesh::Scene import_asset(const mesh::AssetSource& asset, const Limits& limits = {},
                          Textures textures = Textures::kLeave);
 
 // Extensions of the formats that Assimp reads, in lower case, without a dot.

@@ -19,6 +19,7 @@
 #include "import/asset_files.h"
 #include "import/asset_io.h"
 #include "import/file_checks.h"
+#include "import/file_names.h"
 #include "import/gltf_check.h"
 #include "import/import.h"
 #include "import/sandbox.h"
@@ -60,6 +61,7 @@ struct Job {
   std::filesystem::path asset;
   Textures textures = Textures::kLeave;
   std::uint64_t most_triangles = 0;  // 0: no limit
+  bool has_file_names = false;       // the asset's files lie under other names
 };
 
 void require_few_triangles(std::uint64_t triangles, const Job& job) {
@@ -70,22 +72,22 @@ void require_few_triangles(std::uint64_t triangles, const Job& job) {
 
 void import_into(AssetFiles& files, const Job& job, wire::Writer& writer) {
   std::vector<std::string> warnings;
-  check_file(files.asset_name(), warnings);
+  check_file(files.asset_path(), warnings);
   const ExpectedGltf expected = check_gltf(files, warnings);
   require_few_triangles(expected.triangles.value_or(0), job);  // before they are read
   const std::string replacement =
-      expected.replacement.empty() ? replacement_for(files.asset_name()) : expected.replacement;
+      expected.replacement.empty() ? replacement_for(files.asset_path()) : expected.replacement;
   Assimp::Importer importer;
   importer.SetIOHandler(new AssetIo(files, replacement));  // which the importer owns
   if (importer.ReadFile("./" + files.asset_name(), aiProcess_Triangulate) == nullptr) {
     throw_if_out_of_memory(importer);
-    throw InputError(explain_failure(importer.GetErrorString(), files.asset_name()));
+    throw InputError(explain_failure(importer.GetErrorString(), files.asset_path()));
   }
   aiScene* const scene = importer.GetOrphanedScene();  // freed by the end of the process
   require_expected(expected, *scene);
   const std::uint64_t triangles = count_triangles(*scene);
   require_few_triangles(triangles, job);
-  require_content(files.asset_name(), scene->mNumMeshes, triangles, warnings);
+  require_content(files.asset_path(), scene->mNumMeshes, triangles, warnings);
   write_scene(*scene, expected.materials, files, std::move(warnings), job.textures, writer);
 }
 
@@ -106,7 +108,8 @@ void refuse_system_error(const std::system_error& error) {
 
 void run(const Job& job) {
   try {
-    AssetFiles files(job.asset.filename().string());
+    const std::string path = job.asset.filename().string();
+    AssetFiles files = job.has_file_names ? AssetFiles(path, read_file_names(".")) : AssetFiles(path);
     wire::Writer writer(kAnswerDescriptor);
     import_into(files, job, writer);
   } catch (const std::bad_alloc&) {
@@ -150,9 +153,10 @@ std::uint64_t number(const char* text) {
 }  // namespace
 
 int worker_main(int argc, char** argv) {
-  if (argc != 8) return 2;  // started by hand: it has no one to answer to
+  if (argc != 9) return 2;  // started by hand: it has no one to answer to
   try {
-    Job job{argv[2], number(argv[6]) != 0 ? Textures::kDecode : Textures::kLeave, number(argv[7])};
+    Job job{argv[2], number(argv[6]) != 0 ? Textures::kDecode : Textures::kLeave, number(argv[7]),
+            number(argv[8]) != 0};
     // The stack is room that most files never touch: it comes on top of what the import may take.
     limit_this_process(number(argv[3]) + kStackBytes, number(argv[4]), static_cast<pid_t>(number(argv[5])));
     if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());

@@ -205,15 +205,15 @@ bool says_out_of_memory(const Answer& answer) {
 
 }  // namespace
 
-Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Textures textures) {
+Answer run_worker(const mesh::AssetSource& asset, const Limits& limits, Textures textures) {
   const Descriptor memory(::memfd_create("imported scene", MFD_CLOEXEC | MFD_ALLOW_SEALING),
                           "making memory for the import worker");
   const auto start = Clock::now();
   Child child(SpawnPlan(memory.get())
-                  .spawn({program_invocation_name, kWorkerArgument, asset.string(),
+                  .spawn({program_invocation_name, kWorkerArgument, asset.file.string(),
                           std::to_string(limits.memory_bytes), std::to_string(whole_seconds(limits.seconds)),
                           std::to_string(::getpid()), std::to_string(static_cast<int>(textures)),
-                          std::to_string(limits.triangles)}));
+                          std::to_string(limits.triangles), asset.file_names ? "1" : "0"}));
   const std::optional<int> status = child.wait_for(limits.seconds, limits.stop);
   if (!status) throw WorkerFailure(out_of_time(limits), true);
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "import/import.h"
+#include "mesh/asset_source.h"
 #include "mesh/scene.h"
 
 namespace scene_analyzer::import {
@@ -37,6 +38,6 @@ struct Answer {
 
 // `limits` are already derived: memory_bytes > 0. Throws WorkerFailure, Stopped, and std::system_error
 // when the machine cannot start a process.
-Answer run_worker(const std::filesystem::path& asset, const Limits& limits, Textures textures);
+Answer run_worker(const mesh::AssetSource& asset, const Limits& limits, Textures textures);
 
 }  // namespace scene_analyzer::import

@@ -9,7 +9,7 @@
 
 namespace scene_analyzer::pipeline {
 
-void attempt(const std::filesystem::path& asset, Outcome& outcome, const std::function<void()>& step) {
+void attempt(const mesh::AssetSource& asset, Outcome& outcome, const std::function<void()>& step) {
   try {
     step();
   } catch (const import::EndedEarly& error) {
@@ -18,9 +18,9 @@ void attempt(const std::filesystem::path& asset, Outcome& outcome, const std::fu
   } catch (const InputError& error) {
     outcome.error = error.what();
   } catch (const std::filesystem::filesystem_error& error) {
-    outcome.error = fmt::format("{}: {}", asset.string(), files::describe(error.code()));
+    outcome.error = fmt::format("{}: {}", asset.name, files::describe(error.code()));
   } catch (const std::bad_alloc&) {
-    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.string());
+    outcome.error = fmt::format("{}: this machine has too little free memory for it", asset.name);
     outcome.may_succeed_alone = true;
   }
 }

@@ -10,6 +10,6 @@ namespace scene_analyzer::pipeline {
 
 // Runs a step of an asset's analysis; what is wrong with the asset goes into its outcome. Everything else,
 // such as a lost device, is thrown on.
-void attempt(const std::filesystem::path& asset, Outcome& outcome, const std::function<void()>& step);
+void attempt(const mesh::AssetSource& asset, Outcome& outcome, const std::function<void()>& step);
 
 }  // namespace scene_analyzer::pipeline

@@ -33,11 +33,15 @@ void add_row_to_empty(mesh::Scene& scene) {
 mesh::Scene import_again(const analysis::AssetAnalysis& analysis, const import::Limits& limits,
                          import::Textures textures) {
   mesh::Scene scene = import::import_asset(analysis.asset, limits, textures);
+  check_is_what_was_analysed(scene, analysis);
+  return scene;
+}
+
+void check_is_what_was_analysed(mesh::Scene& scene, const analysis::AssetAnalysis& analysis) {
   add_row_to_empty(scene);
   if (!is_what_was_analysed(scene, analysis))
     throw InputError(
         fmt::format("{}: it has changed since it was analysed; analyse it again", analysis.asset));
-  return scene;
 }
 
 }  // namespace scene_analyzer::pipeline

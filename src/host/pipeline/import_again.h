@@ -12,5 +12,7 @@ namespace scene_analyzer::pipeline {
 // Throws InputError when the asset cannot be imported any more or is not what was analysed, import::Stopped.
 mesh::Scene import_again(const analysis::AssetAnalysis& analysis, const import::Limits& limits,
                          import::Textures textures);
+// The same of a scene that was imported already.
+void check_is_what_was_analysed(mesh::Scene& scene, const analysis::AssetAnalysis& analysis);
 
 }  // namespace scene_analyzer::pipeline

@@ -30,7 +30,7 @@ class PendingAnalysis {
   // Whether it was imported and has meshes; else Pipeline::finish is all that is left to do.
   bool has_something_to_measure() const { return computed_ && !has_failed() && !scene_.instances.empty(); }
 
-  const std::filesystem::path& asset() const { return asset_; }
+  const mesh::AssetSource& asset() const { return asset_; }
   // Of memory, about: the scene and the analysis.
   std::uint64_t held_bytes() const;
   std::uint64_t triangles() const;
@@ -42,16 +42,17 @@ class PendingAnalysis {
  private:
   friend class Pipeline;
   friend class PendingPack;
-  PendingAnalysis(std::filesystem::path asset, Progress report)
-      : asset_(std::move(asset)), progress_(std::move(report)) {}
+  PendingAnalysis(mesh::AssetSource asset, Progress report, std::shared_ptr<const Options> options);
   // The search for start triangles may end before or after rendering is timed: progress never falls.
   void report(double fraction, const std::string& step) {
     done_ = std::max(done_, fraction);
     if (progress_) progress_(done_, step);
   }
 
-  const std::filesystem::path asset_;
+  const mesh::AssetSource asset_;
   const Progress progress_;
+  const std::shared_ptr<const Options> options_;
+  const std::shared_ptr<AnalysisStore> store_;  // or none
   double done_ = 0;
   Outcome outcome_;
   mesh::Scene scene_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -70,6 +71,11 @@ AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
   return analysis;
 }
 
+std::shared_ptr<AnalysisStore> store_of(const Options& options) {
+  if (options.store || !options.use_analysis_files) return options.store;
+  return std::make_shared<AnalysisFiles>(options.cache_folder);
+}
+
 // An asset without any mesh still has its row, so that nobody wonders where it went.
 void add_empty_row(AssetAnalysis& analysis) {
   analysis.geometries.assign(1, {});
@@ -88,16 +94,23 @@ bool has_more_triangles(const AssetAnalysis& analysis, std::uint64_t limit) {
 
 }  // namespace
 
+PendingAnalysis::PendingAnalysis(mesh::AssetSource asset, Progress report,
+                                 std::shared_ptr<const Options> options)
+    : asset_(std::move(asset)),
+      progress_(report ? std::move(report) : [](double, const std::string&) {}),
+      options_(std::move(options)),
+      store_(store_of(*options_)) {}
+
 Pipeline::Pipeline(Options options, std::function<gpu::Device&()> device)
-    : options_(std::move(options)), device_(std::move(device)) {}
+    : options_(std::make_shared<const Options>(std::move(options))), device_(std::move(device)) {}
 
 Pipeline::~Pipeline() = default;
 
-Outcome Pipeline::analyze(const fs::path& asset, const Progress& progress) {
+Outcome Pipeline::analyze(const mesh::AssetSource& asset, const Progress& progress) {
   return finish(start(asset, progress));
 }
 
-std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Progress& progress) {
+std::unique_ptr<PendingAnalysis> Pipeline::start(const mesh::AssetSource& asset, const Progress& progress) {
   auto pending = prepare(asset, progress);
   if (!pending->has_something_to_measure()) return pending;
   attempt(asset, pending->outcome_, [&] {
@@ -107,14 +120,15 @@ std::unique_ptr<PendingAnalysis> Pipeline::start(const fs::path& asset, const Pr
   return pending;
 }
 
-std::unique_ptr<PendingAnalysis> Pipeline::prepare(const fs::path& asset, const Progress& progress) {
-  std::unique_ptr<PendingAnalysis> pending(new PendingAnalysis(
-      asset, progress ? progress : [](double, const std::string&) {}));
+std::unique_ptr<PendingAnalysis> Pipeline::prepare(const mesh::AssetSource& asset, const Progress& progress,
+                                                   std::shared_ptr<const Options> options) {
+  std::unique_ptr<PendingAnalysis> pending(
+      new PendingAnalysis(asset, progress, options ? std::move(options) : options_));
   attempt(asset, pending->outcome_, [&] {
-    MetricSet wanted = options_.metrics & kOptionalMetrics;
+    MetricSet wanted = pending->options_->metrics & kOptionalMetrics;
     // A signal's summary is stored: it has to count as computed, for its parameter to be compared later.
-    if (options_.signals) wanted.set(index_of(Metric::kFourierTransform));
-    if (!options_.use_analysis_files || !reuse(*pending, wanted)) compute(*pending, wanted);
+    if (pending->options_->signals) wanted.set(index_of(Metric::kFourierTransform));
+    if (!pending->store_ || !reuse(*pending, wanted)) compute(*pending, wanted);
   });
   return pending;
 }
@@ -128,8 +142,8 @@ Outcome Pipeline::finish(PendingAnalysis& pending) {
   attempt(pending.asset_, outcome, [&] {
     if (!outcome.error.empty()) return;
     if (pending.measurement_) pending.measurement_->finish();
-    if (pending.computed_ && options_.use_analysis_files) store(pending);
-    keep_wanted_timings(*outcome.analysis);
+    if (pending.computed_ && pending.store_) store(pending);
+    keep_wanted_timings(*pending.options_, *outcome.analysis);
     describe(*outcome.analysis, outcome.messages);
   });
   if (!outcome.error.empty()) outcome.analysis.reset();
@@ -138,22 +152,23 @@ Outcome Pipeline::finish(PendingAnalysis& pending) {
 
 bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
   pending.report(0, "checking the analysis file");
-  const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
-  auto loaded = analysis_file::load_valid(file, pending.asset_, options_.parameters);
+  const Options& options = *pending.options_;
+  AnalysisStore::Found found = pending.store_->find(pending.asset_, options.parameters);
   Outcome& outcome = pending.outcome_;
-  if (const auto* unusable = std::get_if<analysis_file::Unusable>(&loaded)) {
-    if (!unusable->absent)
-      outcome.messages.push_back(fmt::format("{}: the analysis file {} {}; it is computed again",
-                                             pending.asset_.string(), file.string(), unusable->reason));
+  if (!found.analysis) {
+    if (!found.unusable.empty())
+      outcome.messages.push_back(
+          fmt::format("{}: {}; it is computed again", pending.asset_.name, found.unusable));
     return false;
   }
-  auto& stored = std::get<AssetAnalysis>(loaded);
-  if (has_more_triangles(stored, options_.import_limits.triangles)) return false;  // the import refuses it
+  AssetAnalysis& stored = *found.analysis;
+  if (has_more_triangles(stored, options.import_limits.triangles)) return false;  // the import refuses it
   const MetricSet untimed = ~set_of({Metric::kRenderingTime});
-  const auto* timing =
-      wanted[kTiming] ? find_timing(stored.timings, timing_conditions(), options_.timing_budget) : nullptr;
-  if (!covers(stored.computed, wanted & untimed) || is_of_an_older_program(stored) || options_.histograms ||
-      options_.signals ||
+  const auto* timing = wanted[kTiming]
+                           ? find_timing(stored.timings, timing_conditions(options), options.timing_budget)
+                           : nullptr;
+  if (!covers(stored.computed, wanted & untimed) || is_of_an_older_program(stored) || options.histograms ||
+      options.signals ||
       (wanted[kTiming] && timing == nullptr && has_something_to_draw(stored) && can_time(outcome))) {
     // Computing only what is missing would lose what the next run may ask for; times are kept as they are.
     wanted |= stored.computed & kOptionalMetrics & untimed;
@@ -162,7 +177,7 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
     return false;
   }
   if (timing != nullptr) put_first(stored.timings, analysis::RenderTiming(*timing));
-  stored.asset = pending.asset_.string();
+  stored.asset = pending.asset_.name;
   outcome.analysis = std::move(stored);
   outcome.from_file = outcome.kept = true;
   return true;
@@ -171,20 +186,21 @@ bool Pipeline::reuse(PendingAnalysis& pending, MetricSet& wanted) {
 void Pipeline::compute(PendingAnalysis& pending, MetricSet wanted) {
   pending.report(0, "importing");
   pending.computed_ = true;
-  const FileState before = state_of(pending.asset_);
-  pending.scene_ = import::import_asset(pending.asset_, options_.import_limits);
+  const Options& options = *pending.options_;
+  const FileState before = state_of(pending.asset_.file);
+  pending.scene_ = import::import_asset(pending.asset_, options.import_limits);
   const mesh::Scene& scene = pending.scene_;
   pending.outcome_.import = scene.effort;
   AssetAnalysis& analysis = pending.outcome_.analysis.emplace();
   // Hashed now, not when it is stored: what is measured is what was read.
-  if (options_.use_analysis_files || options_.fingerprint_files)
+  if (pending.store_ || options.fingerprint_files)
     analysis.files = analysis_file::fingerprint(pending.asset_, scene.files);
-  pending.unchanged_ = before == state_of(pending.asset_);
-  analysis.asset = pending.asset_.string();
+  pending.unchanged_ = before == state_of(pending.asset_.file);
+  analysis.asset = pending.asset_.name;
   analysis.format = scene.format;
   analysis.unit_scale = scene.unit_scale;
   analysis.up_axis = scene.up_axis;
-  analysis.parameters = options_.parameters;
+  analysis.parameters = options.parameters;
   analysis.computed = wanted | kCommonMetrics;
   analysis.warnings = scene.warnings;
   // Times of the files as they were hashed for them, and of no others.
@@ -215,24 +231,25 @@ void Pipeline::forget_device() {
 
 void Pipeline::measure(PendingAnalysis& pending) {
   const MetricSet wanted = pending.wanted_;
+  const Options& options = *pending.options_;
   pending.report(kImportEnds, "starting the device");
   AssetAnalysis& analysis = *pending.outcome_.analysis;
   analysis.device = start_device()->stamp;
   const double measured = wanted[kTiming] ? kTimingBegins : kTimingEnds;
   Measurement measurement{.scene = pending.scene_,
                           .analysis = analysis,
-                          .parameters = options_.parameters,
+                          .parameters = options.parameters,
                           .metrics = wanted,
                           .progress = [&pending, measured](double fraction, const std::string& step) {
                             pending.report(kImportEnds + (measured - kImportEnds) * fraction, step);
                           }};
-  if (options_.histograms)
+  if (options.histograms)
     measurement.histograms = [&](std::uint32_t geometry, const analysis::Histogram& histogram) {
-      options_.histograms(analysis, geometry, histogram);
+      options.histograms(analysis, geometry, histogram);
     };
-  if (options_.signals)
+  if (options.signals)
     measurement.signals = [&](std::uint32_t geometry, const analysis::SignalSpectrum& signal) {
-      options_.signals(analysis, geometry, signal);
+      options.signals(analysis, geometry, signal);
     };
   if (wanted[kTiming])
     measurement.degenerate = [&pending](std::uint32_t geometry, std::vector<std::uint32_t> triangles) {
@@ -243,12 +260,13 @@ void Pipeline::measure(PendingAnalysis& pending) {
 
 void Pipeline::find_times(PendingAnalysis& pending) {
   AssetAnalysis& analysis = *pending.outcome_.analysis;
-  if (const auto* stored = find_timing(analysis.timings, timing_conditions(), options_.timing_budget)) {
+  const Options& options = *pending.options_;
+  if (const auto* stored = find_timing(analysis.timings, timing_conditions(options), options.timing_budget)) {
     put_first(analysis.timings, analysis::RenderTiming(*stored));
     return;
   }
   // Devices that share anything with the processors would be timed with the search beside them.
-  if (is_timed_alone() && pending.measurement_) std::exchange(pending.measurement_, nullptr)->finish();
+  if (is_timed_alone(options) && pending.measurement_) std::exchange(pending.measurement_, nullptr)->finish();
   time(pending);
 }
 
@@ -259,22 +277,20 @@ void Pipeline::store(PendingAnalysis& pending) {
   if (is_beyond_a_limit(*outcome.analysis)) return;
   pending.report(kTimingEnds, "writing the analysis file");
   if (!pending.unchanged_) {
-    outcome.messages.push_back(fmt::format("{}: the file changed while it was read; its analysis is not kept",
-                                           pending.asset_.string()));
+    outcome.messages.push_back(
+        fmt::format("{}: the file changed while it was read; its analysis is not kept", pending.asset_.name));
     return;
   }
-  const fs::path file = analysis_file::path_for(pending.asset_, options_.cache_folder);
   try {
-    analysis_file::store(file, without_incomplete_timings(*outcome.analysis));
+    pending.store_->keep(pending.asset_, without_incomplete_timings(*outcome.analysis));
     outcome.kept = true;
   } catch (const analysis_file::CannotStore& error) {
     // Results are as good as ever, only the next run takes as long as this one.
     outcome.write_error = error.what();
     outcome.others_can_be_written = error.is_the_assets();
-    const fs::path folder = options_.cache_folder.value_or(file.parent_path());
     if (error.is_the_assets())
       outcome.messages.push_back(fmt::format("{}; this analysis is not kept", error.what()));
-    else if (unwritable_folders_.insert(folder).second)
+    else if (unwritable_folders_.insert(pending.store_->folder_of(pending.asset_)).second)
       outcome.messages.push_back(fmt::format(
           "{} (choose another folder with --cache-dir, or go without with --no-cache); analyses of "
           "this folder are not kept",

@@ -22,6 +22,7 @@
 
 #include "analysis/analysis.h"
 #include "import/import.h"
+#include "pipeline/analysis_store.h"
 #include "pipeline/measure.h"
 #include "render_timing/render_timer.h"
 
@@ -32,6 +33,7 @@ struct Options {
   analysis::MetricSet metrics = analysis::MetricSet().set();
   bool use_analysis_files = true;                     // --no-cache: neither read nor written
   std::optional<std::filesystem::path> cache_folder;  // --cache-dir
+  std::shared_ptr<AnalysisStore> store = {};          // in place of the two above
   bool fingerprint_files = false;  // AssetAnalysis::files is wanted also without analysis files
   import::Limits import_limits;
   // Rendering time: pixels, and seconds for all meshes of one asset together.
@@ -69,28 +71,32 @@ class PendingPack;
 
 class Pipeline {
  public:
-  // `device` is called at most once, when something has to be computed for the first time.
+  // `options` are those of every asset that is not given others. `device` is called when something has to be
+  // computed for the first time, and again after forget_device().
   Pipeline(Options options, std::function<gpu::Device&()> device);
   ~Pipeline();
 
   // None of these throws for a bad asset (that is an Outcome); they throw gpu::NoDevice and gpu::DeviceLost,
   // after which the rest makes no sense.
-  Outcome analyze(const std::filesystem::path& asset, const Progress& progress = {});
+  Outcome analyze(const mesh::AssetSource& asset, const Progress& progress = {});
 
   // The same in two steps. Each asset that was started holds its scene in memory until it is finished, and
   // its search has threads on all processors: few should be pending. Destroy them before the pipeline.
   // Where is_timed_alone(), finish what is pending before the next is started.
-  std::unique_ptr<PendingAnalysis> start(const std::filesystem::path& asset, const Progress& progress = {});
+  std::unique_ptr<PendingAnalysis> start(const mesh::AssetSource& asset, const Progress& progress = {});
   Outcome finish(std::unique_ptr<PendingAnalysis> pending);
-  // Whether rendering is timed on a device that a search on the host would slow down.
-  bool is_timed_alone() const;
+  // Whether rendering is timed on a device that a search on the host would slow down; of assets that were
+  // given no options of their own.
+  bool is_timed_alone() const { return is_timed_alone(*options_); }
 
   // start() in two steps, for many assets. The first may be taken by several threads at the same time: reads
   // the analysis file or imports the asset. Throws import::Stopped. Memory: the scene, until it is finished.
-  std::unique_ptr<PendingAnalysis> prepare(const std::filesystem::path& asset, const Progress& progress = {});
+  // With `options` for this asset.
+  std::unique_ptr<PendingAnalysis> prepare(const mesh::AssetSource& asset, const Progress& progress = {},
+                                           std::shared_ptr<const Options> options = nullptr);
   // The second, for one thread. A single asset is measured as by start(); the meshes of several share batches
-  // on the device, with the results that each would have had alone. All were made by prepare() of this
-  // pipeline; without Options::histograms and signals.
+  // on the device where their parameters and metrics are the same, with the results that each would have had
+  // alone. All were made by prepare() of this pipeline; without Options::histograms and signals.
   std::unique_ptr<PendingPack> start_pack(std::vector<std::unique_ptr<PendingAnalysis>> assets);
   // Calls `finished` for each, in the order given, as soon as it is stored: rendering is timed asset by
   // asset, each of which may take Options::timing_budget. What `finished` throws leaves the others undone.
@@ -121,12 +127,13 @@ class Pipeline {
   std::shared_ptr<const KnownDevice> start_device();
   void find_times(PendingAnalysis& pending);
   void time(PendingAnalysis& pending);
-  void keep_wanted_timings(analysis::AssetAnalysis& analysis);
   bool can_time(Outcome& outcome);  // says it in `outcome` when the device cannot
+  bool is_timed_alone(const Options& options) const;
+  void keep_wanted_timings(const Options& options, analysis::AssetAnalysis& analysis);
   // What rendering times have to be made under.
-  analysis::RenderTiming::Conditions timing_conditions();
+  analysis::RenderTiming::Conditions timing_conditions(const Options& options);
 
-  const Options options_;
+  const std::shared_ptr<const Options> options_;
   const std::function<gpu::Device&()> device_;
   mutable std::mutex device_mutex_;  // while it is made; what is made of it stays until forget_device()
   std::shared_ptr<const KnownDevice> known_device_;

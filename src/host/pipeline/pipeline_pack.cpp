@@ -16,11 +16,11 @@ std::unique_ptr<PendingPack> Pipeline::start_pack(std::vector<std::unique_ptr<Pe
   auto pack = std::make_unique<PendingPack>(std::move(assets));
   std::vector<PendingAnalysis*> to_measure = pack->measured();
   // Sets of metrics differ where some assets have an analysis file that lacks what is asked for now: what
-  // such a file holds is computed again. Those of the first are measured together, the others alone.
-  const auto others = std::stable_partition(to_measure.begin(), to_measure.end(), [&](const auto* asset) {
-    return asset->wanted_ == to_measure.front()->wanted_;
-  });
-  pack->joined_assets_.assign(to_measure.begin(), others);
+  // such a file holds is computed again. Those like the first are measured together, the others alone.
+  for (PendingAnalysis* asset : to_measure)
+    if (asset->wanted_ == to_measure.front()->wanted_ &&
+        asset->options_->parameters == to_measure.front()->options_->parameters)
+      pack->joined_assets_.push_back(asset);
   if (pack->joined_assets_.size() < 2) pack->joined_assets_.clear();
   if (!pack->joined_assets_.empty()) try {
       measure_together(*pack);
@@ -43,7 +43,8 @@ void Pipeline::finish_pack(std::unique_ptr<PendingPack> pack, const Finished& fi
         attempt(asset->asset_, asset->outcome_, [&] { measure(*asset); });
     }
   // No search of one beside the timing of another.
-  const bool alone = is_timed_alone();
+  const bool alone =
+      std::ranges::any_of(pack->assets_, [&](const auto& asset) { return is_timed_alone(*asset->options_); });
   for (const auto& asset : pack->assets_)
     if (alone && asset->measurement_)
       attempt(asset->asset_, asset->outcome_, [&] { std::exchange(asset->measurement_, nullptr)->finish(); });
@@ -64,7 +65,7 @@ void Pipeline::measure_together(PendingPack& pack) {
   const double end = wanted[index_of(analysis::Metric::kRenderingTime)] ? kTimingBegins : kTimingEnds;
   Measurement measurement{.scene = pack.joined_.scene,
                           .analysis = pack.analysis_,
-                          .parameters = options_.parameters,
+                          .parameters = pack.joined_assets_.front()->options_->parameters,
                           .metrics = wanted,
                           .progress = [&pack, end](double fraction, const std::string& step) {
                             pack.report(kImportEnds + (end - kImportEnds) * fraction, step);

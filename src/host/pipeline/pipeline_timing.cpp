@@ -12,17 +12,17 @@ namespace scene_analyzer::pipeline {
 
 using analysis::AssetAnalysis;
 
-bool Pipeline::is_timed_alone() const {
+bool Pipeline::is_timed_alone(const Options& options) const {
   const std::lock_guard lock(device_mutex_);
-  return options_.metrics[index_of(analysis::Metric::kRenderingTime)] && known_device_ &&
+  return options.metrics[index_of(analysis::Metric::kRenderingTime)] && known_device_ &&
          known_device_->info.type != gpu::DeviceType::kDiscrete;
 }
 
-analysis::RenderTiming::Conditions Pipeline::timing_conditions() {
-  return {.device = options_.this_device_only ? start_device()->stamp : analysis::DeviceStamp(),
-          .width = options_.timing_width,
-          .height = options_.timing_height,
-          .steps = options_.parameters.steps};
+analysis::RenderTiming::Conditions Pipeline::timing_conditions(const Options& options) {
+  return {.device = options.this_device_only ? start_device()->stamp : analysis::DeviceStamp(),
+          .width = options.timing_width,
+          .height = options.timing_height,
+          .steps = options.parameters.steps};
 }
 
 bool Pipeline::can_time(Outcome& outcome) {
@@ -32,17 +32,18 @@ bool Pipeline::can_time(Outcome& outcome) {
 }
 
 // What was stored under other conditions is not what was asked for.
-void Pipeline::keep_wanted_timings(AssetAnalysis& analysis) {
+void Pipeline::keep_wanted_timings(const Options& options, AssetAnalysis& analysis) {
   std::erase_if(analysis.timings, [&](const analysis::RenderTiming& timing) {
-    return !options_.metrics[index_of(analysis::Metric::kRenderingTime)] ||
-           !is_under(timing, timing_conditions());
+    return !options.metrics[index_of(analysis::Metric::kRenderingTime)] ||
+           !is_under(timing, timing_conditions(options));
   });
 }
 
 void Pipeline::time(PendingAnalysis& pending) {
   if (!can_time(pending.outcome_)) return;
   AssetAnalysis& analysis = *pending.outcome_.analysis;
-  analysis::RenderTiming::Conditions conditions = timing_conditions();
+  const Options& options = *pending.options_;
+  analysis::RenderTiming::Conditions conditions = timing_conditions(options);
   const auto device = start_device();
   conditions.device = device->stamp;
   const auto progress = [&](double fraction) {
@@ -52,9 +53,9 @@ void Pipeline::time(PendingAnalysis& pending) {
   try {
     if (!render_timer_) render_timer_ = std::make_unique<render_timing::RenderTimer>(*gpu_);
     analysis::RenderTiming timing = time_scene(*render_timer_, pending.scene_, analysis, pending.degenerate_,
-                                               conditions, options_.timing_budget, progress);
+                                               conditions, options.timing_budget, progress);
     timing.timestamp_period_ns = device->info.timestamp_period_ns;
-    timing.budget_seconds = options_.timing_budget;
+    timing.budget_seconds = options.timing_budget;
     describe_missing_times(analysis.asset, timing, pending.outcome_.messages);
     put_first(analysis.timings, std::move(timing));
   } catch (const gpu::DeviceLost&) {
