@@ -42,16 +42,6 @@ std::uint64_t check_is_readable_file(const fs::path& asset) {
   return bytes;
 }
 
-// Files without an extension are recognised by their contents.
-void check_extension(const fs::path& asset) {
-  const std::string extension = asset.extension().string();
-  if (extension.empty() || Assimp::Importer().IsExtensionSupported(extension)) return;
-  throw InputError(
-      "unsupported format \"" + clean_text(extension, 32) +
-      "\"; supported are glTF, GLB, OBJ, PLY, STL, FBX, COLLADA (.dae), 3DS, 3MF, OFF, X, Blend and other "
-      "formats of Assimp");
-}
-
 // The bulk of a .gltf lies beside it, also under a number.
 std::uint64_t bytes_beside(const mesh::AssetSource& asset) {
   if (asset.file.extension() != ".gltf") return 0;
@@ -111,6 +101,18 @@ std::set<std::string, std::less<>> known_extensions() {
   return extensions;
 }
 
+std::string known_extension_of(const fs::path& name) {
+  std::string extension = name.extension().string();
+  if (!extension.empty() && !Assimp::Importer().IsExtensionSupported(extension))
+    throw InputError(
+        "unsupported format \"" + clean_text(extension, 32) +
+        "\"; supported are glTF, GLB, OBJ, PLY, STL, FBX, COLLADA (.dae), 3DS, 3MF, OFF, X, Blend and other "
+        "formats of Assimp");
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
 std::vector<std::string> missing_isolation() {
   std::vector<std::string> missing;
   const Offered offered = offered_by_kernel();
@@ -129,7 +131,7 @@ mesh::Scene import_asset(const mesh::AssetSource& asset, const Limits& limits, T
   const std::string name = clean_text(asset.name, 4096);
   try {
     const std::uint64_t bytes = check_is_readable_file(asset.file);
-    check_extension(asset.file);
+    known_extension_of(asset.file);
     return import_readable(asset, derive(limits, asset, bytes), textures);
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
@@ -139,7 +141,7 @@ mesh::Scene import_asset(const mesh::AssetSource& asset, const Limits& limits, T
   } catch (const wire::Malformed& error) {
     throw InputError(name + ": the importer gave no usable answer: " + error.what());
   } catch (const std::system_error& error) {
-    throw InputError(name + ": the import worker could not be run: " + error.what());
+    throw EndedEarly(name + ": the import worker could not be run: " + error.what());
   }
 }
 

@@ -1,8 +1,9 @@
 // import.h — Asset file -> mesh::Scene, through Assimp in a worker process.
 //
-// The worker is this same program, re-executed with a hidden first argument (kWorkerArgument); a file that
-// crashes, hangs or eats memory in Assimp ends the worker, not the caller. Geometry comes back through shared
-// memory and is validated (counts, index ranges, sizes) before anything uses it.
+// The worker is a small program beside this one or, where that is missing, this same program, started with a
+// hidden first argument (kWorkerArgument); a file that crashes, hangs or eats memory in Assimp ends the
+// worker, not the caller. Geometry comes back through shared memory and is validated (counts, index ranges,
+// sizes) before anything uses it.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +36,8 @@ class Stopped : public std::exception {
   const char* what() const noexcept override { return "the import was stopped"; }
 };
 
-// The import took too long by the clock, or the system ended it for lack of memory: with less going on beside
-// it, it may succeed.
+// The import took too long by the clock, or the system would not start it or ended it for lack of memory:
+// with less going on beside it, it may succeed.
 class EndedEarly : public InputError {
   using InputError::InputError;
 };
@@ -64,6 +65,10 @@ mesh::Scene import_asset(const mesh::AssetSource& asset, const Limits& limits = 
 
 // Extensions of the formats that Assimp reads, in lower case, without a dot.
 std::set<std::string, std::less<>> known_extensions();
+
+// The extension of a file of that name, in lower case with its dot; "" where there is none, as such files are
+// recognised by their contents. Throws InputError without the name when no format has it.
+std::string known_extension_of(const std::filesystem::path& name);
 
 // What this kernel does not offer to keep the worker in, one sentence each; empty where all is there.
 std::vector<std::string> missing_isolation();
