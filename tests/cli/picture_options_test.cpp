@@ -42,9 +42,9 @@ TEST(PictureOptions, APictureShowsTheAggregateByDefault) {
   EXPECT_EQ(request.content.map, ratings::ColorMap::kThesis);
   EXPECT_FALSE(request.content.relative);
   EXPECT_FALSE(request.content.emphasize_extremes);
-  EXPECT_EQ(request.width, 1280U);
-  EXPECT_EQ(request.height, 720U);
-  EXPECT_FALSE(request.target);
+  EXPECT_EQ(request.format.width, 1280U);
+  EXPECT_EQ(request.format.height, 720U);
+  EXPECT_FALSE(request.format.target);
 }
 
 TEST(PictureOptions, EveryOptionArrives) {
@@ -57,9 +57,9 @@ TEST(PictureOptions, EveryOptionArrives) {
   EXPECT_EQ(pictures.content.map, ratings::ColorMap::kCoolwarm);
   EXPECT_TRUE(pictures.content.relative);
   EXPECT_TRUE(pictures.content.emphasize_extremes);
-  EXPECT_EQ(pictures.width, 640U);
-  EXPECT_EQ(pictures.height, 400U);
-  EXPECT_EQ(pictures.target, (mesh::Vector3{4, 5, 6}));
+  EXPECT_EQ(pictures.format.width, 640U);
+  EXPECT_EQ(pictures.format.height, 400U);
+  EXPECT_EQ(pictures.format.target, (mesh::Vector3{4, 5, 6}));
   EXPECT_EQ(request.ratings.eye, (mesh::Vector3{1, 2, 3}));
   const std::vector<std::pair<std::string, ratings::ColorMap>> maps = {
       {"thesis", ratings::ColorMap::kThesis},

@@ -8,16 +8,15 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/scene_loader.h"
 #include "gpu/error.h"
-#include "pictures/compose.h"
-#include "pictures/far_away.h"
-#include "scene_render/scene_renderer.h"
+#include "pictures/scene_loader.h"
+#include "pictures/scene_studio.h"
 
 namespace scene_analyzer::cli {
 namespace {
@@ -25,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using pictures::Content;
 using pictures::Subject;
-
-constexpr std::uint32_t kSamples = 4;  // per pixel
 
 struct PictureFile {
   fs::path path;
@@ -68,12 +65,6 @@ std::vector<PictureFile> wanted_files(const PictureRequest& request, analysis::M
   return files;
 }
 
-std::string scene_name(const report::SceneReport& report) {
-  const std::string first = fs::path(report.assets.front().asset).filename().string();
-  if (report.assets.size() == 1) return first;
-  return fmt::format("{} and {} more", first, report.assets.size() - 1);
-}
-
 // Whether `work` was done; if not, the log says what is lost and why. One picture's failure is not the
 // others'.
 bool attempt(const std::string& lost, Progress& progress, const std::function<void()>& work) {
@@ -96,9 +87,9 @@ bool attempt(const std::string& lost, Progress& progress, const std::function<vo
   }
 }
 
-class Studio {
+class PictureWriter {
  public:
-  Studio(const AnalyzeRequest& request, const report::SceneReport& report, gpu::Device& device)
+  PictureWriter(const AnalyzeRequest& request, const report::SceneReport& report, gpu::Device& device)
       : request_(request),
         report_(report),
         files_(wanted_files(request.pictures, request.ratings.metrics)),
@@ -113,7 +104,7 @@ class Studio {
       progress_.start_asset(item, files_[i].path.filename().string());
       progress_.update(item, 0, "picture");
       good_ = attempt(fmt::format("{} is not drawn", files_[i].path.string()), progress_,
-                      [&] { report::write_file(files_[i].path, draw(files_[i].content)); }) &&
+                      [&] { report::write_file(files_[i].path, studio_->draw(files_[i].content)); }) &&
               good_;
       progress_.finish_asset(item);
     }
@@ -122,13 +113,14 @@ class Studio {
 
  private:
   void load() {
-    renderer_.emplace(device_, kSamples);
+    studio_.emplace(device_, pictures::RatedScene{report_.assets, report_.rating, request_.ratings},
+                    request_.pictures.format);
     const bool groups = std::ranges::any_of(
         files_, [](const PictureFile& file) { return file.content.subject == Subject::kPlanarGroups; });
-    SceneLoader loader(device_, request_.pipeline.import_limits);
+    pictures::SceneLoader loader(device_, request_.pipeline.import_limits);
     for (std::size_t i = 0; i < report_.assets.size(); ++i) {
       progress_.start_asset(i, fs::path(report_.assets[i].asset).filename().string());
-      loader.add(report_.assets[i], groups && renderer_->can_draw_groups(),
+      loader.add(report_.assets[i], groups && studio_->can_draw_groups(),
                  [&](double fraction, const std::string& step) {
                    check_interrupt();
                    progress_.update(i, fraction, step);
@@ -138,87 +130,31 @@ class Studio {
       });
       progress_.finish_asset(i);
     }
-    if (groups && !renderer_->can_draw_groups())
+    if (groups && !studio_->can_draw_groups())
       progress_.aside([] {
         log_warning(
             "the device cannot draw planar groups (geometryShader is missing): all meshes are grey there");
       });
-    model_ = loader.finish();
+    scene_render::SceneModel model = loader.finish();
     progress_.aside([&] {
       for (const std::string& warning : loader.take_warnings()) log_warning(warning);
     });
-    frame();
+    studio_->set_model(std::move(model));
+    warn_about_far_away();
   }
 
-  // What the pictures show: the scene as it was analysed, and meshes that were beyond a limit then.
-  void frame() {
-    bounds_ = report_.rating.bounds;
-    for (std::size_t i = 0; i < report_.rating.meshes.size(); ++i) {
-      const ratings::MeshRating& mesh = report_.rating.meshes[i];
-      const analysis::AssetAnalysis& asset = report_.assets[mesh.asset];
-      const auto box = model_->box(i);
-      if (!box || asset.geometries[asset.instances[mesh.instance].geometry].not_analysed.empty()) continue;
-      if (!bounds_) bounds_ = box;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        bounds_->min[axis] = std::min(bounds_->min[axis], box->min[axis]);
-        bounds_->max[axis] = std::max(bounds_->max[axis], box->max[axis]);
-      }
-    }
-    if (!bounds_) throw InputError("the scene has no triangle with a place in space");
-    if (request_.pictures.target) return;
-    if (const auto far = pictures::find_far_away(*model_))
-      progress_.aside([&] {
-        const auto text = [](const mesh::Vector3& point) {
-          return fmt::format("{:.6g},{:.6g},{:.6g}", point[0], point[1], point[2]);
-        };
-        log_warning(
-            fmt::format("{} lies so far from the other meshes that most of these are smaller than a pixel; "
-                        "choose what is seen, for example with --eye {} --target {}",
-                        name_of(far->mesh), text(far->eye), text(far->others)));
-      });
-  }
-
-  std::string name_of(std::size_t row) const {
-    const ratings::MeshRating& mesh = report_.rating.meshes[row];
-    const analysis::InstanceAnalysis& instance = report_.assets[mesh.asset].instances[mesh.instance];
-    return fmt::format("mesh {} ({})", row, instance.node.empty() ? instance.mesh : instance.node);
-  }
-
-  // The aggregate depends on the mode; single ratings are there in both.
-  const ratings::SceneRating& rating_of(const Content& content) {
-    if (content.subject != Subject::kAggregate || content.relative == request_.ratings.relative)
-      return report_.rating;
-    if (!other_mode_) {
-      ratings::Options options = request_.ratings;
-      options.relative = content.relative;
-      other_mode_ = ratings::rate(report_.assets, options);
-    }
-    return *other_mode_;
-  }
-
-  std::string draw(const Content& content) {
-    const ratings::SceneRating& rating = rating_of(content);
-    const PictureRequest& pictures = request_.pictures;
-    const std::uint32_t legend_rows = pictures::legend_height(pictures.width, pictures.height);
-    const std::uint32_t rows = pictures.height - legend_rows;
-    const scene_render::Camera camera = scene_render::make_camera(
-        *bounds_, request_.ratings.eye, pictures.target, static_cast<double>(pictures.width) / rows);
-    renderer_->set_group_colors(content.map);
-    const scene_render::Picture view =
-        renderer_->draw(*model_, camera, pictures::looks(content, rating), pictures.width, rows);
-    const auto marks =
-        pictures::mark_small_extremes(content, rating, report_.assets, camera, pictures.width, rows,
-                                      pictures::mark_radius(pictures.width, pictures.height));
-    pictures::Legend legend = pictures::make_legend(content, rating, scene_name(report_));
-    if (content.subject == Subject::kPlanarGroups) legend.without_value = has_unknown_groups();
-    return pictures::compose(view, marks, legend, pictures.height);
-  }
-
-  bool has_unknown_groups() const {
-    if (!renderer_->can_draw_groups()) return true;
-    for (std::size_t i = 0; i < model_->size(); ++i)
-      if (model_->box(i) && !model_->instance(i).groups) return true;
-    return false;
+  void warn_about_far_away() {
+    const auto far = studio_->far_away();
+    if (!far) return;
+    progress_.aside([&] {
+      const auto text = [](const mesh::Vector3& point) {
+        return fmt::format("{:.6g},{:.6g},{:.6g}", point[0], point[1], point[2]);
+      };
+      log_warning(
+          fmt::format("{} lies so far from the other meshes that most of these are smaller than a pixel; "
+                      "choose what is seen, for example with --eye {} --target {}",
+                      studio_->name_of(far->mesh), text(far->eye), text(far->others)));
+    });
   }
 
   const AnalyzeRequest& request_;
@@ -227,17 +163,14 @@ class Studio {
   bool good_ = true;
   Progress progress_;
   gpu::Device& device_;
-  std::optional<scene_render::SceneRenderer> renderer_;
-  std::optional<scene_render::SceneModel> model_;
-  std::optional<analysis::Bounds> bounds_;
-  std::optional<ratings::SceneRating> other_mode_;
+  std::optional<pictures::SceneStudio> studio_;
 };
 
 }  // namespace
 
 bool write_pictures(const AnalyzeRequest& request, const report::SceneReport& report, LazyDevice& device) {
   if (!request.pictures.wanted() || report.assets.empty()) return true;
-  return Studio(request, report, device.get()).write_all();
+  return PictureWriter(request, report, device.get()).write_all();
 }
 
 }  // namespace scene_analyzer::cli

@@ -127,10 +127,10 @@ PictureRequest read_pictures(const CommandLine& line, analysis::MetricSet metric
         "--export has one colour per mesh, which planar_groups has not; choose another --metric");
   request.content.relative = relative;
   if (const auto size = line.value("size"))
-    std::tie(request.width, request.height) = parse_pixels("size", *size);
-  if (request.width < kLeastWidth || request.height < kLeastHeight)
+    std::tie(request.format.width, request.format.height) = parse_pixels("size", *size);
+  if (request.format.width < kLeastWidth || request.format.height < kLeastHeight)
     throw UsageError(fmt::format("--size: pictures have at least {} x {} pixels", kLeastWidth, kLeastHeight));
-  if (const auto target = line.value("target")) request.target = parse_vector3("target", *target);
+  if (const auto target = line.value("target")) request.format.target = parse_vector3("target", *target);
   return request;
 }
 

@@ -9,6 +9,7 @@
 #include "cli/command_line.h"
 #include "mesh/scene.h"
 #include "pictures/picture_content.h"
+#include "pictures/scene_studio.h"
 
 namespace scene_analyzer::cli {
 
@@ -16,8 +17,7 @@ struct PictureRequest {
   std::optional<std::filesystem::path> image;      // --image: one PNG file, of `content`
   std::optional<std::filesystem::path> image_set;  // --image-set: a folder for one of everything
   pictures::Content content;                       // subject, colour map, emphasis
-  std::uint32_t width = 1280, height = 720;        // pixels, the legend included
-  std::optional<mesh::Vector3> target;             // world; default: see scene_render::make_camera
+  pictures::PictureFormat format;                  // size and target
 
   bool wanted() const { return image || image_set; }
 };

@@ -1,4 +1,4 @@
-#include "cli/scene_loader.h"
+#include "pictures/scene_loader.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,16 @@
 
 #include "pipeline/import_again.h"
 
-namespace scene_analyzer::cli {
+namespace scene_analyzer::pictures {
 
 void SceneLoader::add(const analysis::AssetAnalysis& analysis, bool groups,
                       const pipeline::Progress& progress) {
   progress(0, "import for pictures");
-  const mesh::Scene scene = pipeline::import_again(analysis, limits_, import::Textures::kDecode);
+  add(pipeline::import_again(analysis, limits_, import::Textures::kDecode), analysis, groups, progress);
+}
+
+void SceneLoader::add(const mesh::Scene& scene, const analysis::AssetAnalysis& analysis, bool groups,
+                      const pipeline::Progress& progress) {
   // What the analysis has said is known.
   for (const std::string& warning : scene.warnings)
     if (!std::ranges::count(analysis.warnings, warning))
@@ -55,4 +59,4 @@ scene_render::SceneModel SceneLoader::finish() {
   return model;
 }
 
-}  // namespace scene_analyzer::cli
+}  // namespace scene_analyzer::pictures

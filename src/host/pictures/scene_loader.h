@@ -1,4 +1,4 @@
-// scene_loader.h — The assets of a report as one scene on the device.
+// scene_loader.h — Analysed assets as one scene on the device.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 #include "pipeline/measure.h"
 #include "scene_render/scene_model_builder.h"
 
-namespace scene_analyzer::cli {
+namespace scene_analyzer::pictures {
 
 // Appends one asset to a scene that is to be drawn.
 class SceneLoader {
@@ -21,9 +21,11 @@ class SceneLoader {
 
   // Imports `analysis.asset`, with textures. `groups`: with planar groups, which are measured anew, as no
   // analysis file holds them. Throws InputError, also when the asset is no longer what was analysed;
-  // gpu::OutOfMemory
-  // where planar groups are measured; gpu::DeviceLost.
+  // gpu::OutOfMemory where planar groups are measured; gpu::DeviceLost.
   void add(const analysis::AssetAnalysis& analysis, bool groups, const pipeline::Progress& progress);
+  // The same of an asset that was imported with its textures; its instances run along those of the analysis.
+  void add(const mesh::Scene& scene, const analysis::AssetAnalysis& analysis, bool groups,
+           const pipeline::Progress& progress);
 
   scene_render::SceneModel finish();
 
@@ -41,4 +43,4 @@ class SceneLoader {
   std::vector<std::string> warnings_;
 };
 
-}  // namespace scene_analyzer::cli
+}  // namespace scene_analyzer::pictures
