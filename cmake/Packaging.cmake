@@ -3,6 +3,10 @@ include(GNUInstallDirs)
 set(document_folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/scene-analyzer)
 
 install(TARGETS scene-analyzer RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# What it starts; files/helper_program.h looks for them there.
+install(TARGETS scene-analyzer-import scene-analyzer-serve RUNTIME DESTINATION libexec/scene-analyzer)
+# For those who write clients of the service.
+install(DIRECTORY proto DESTINATION ${CMAKE_INSTALL_DATADIR}/scene-analyzer)
 # Debian's name for the licence; minimal images drop every other document of a package.
 install(FILES LICENSE DESTINATION ${document_folder} RENAME copyright)
 install(FILES README.md NOTICE.md DESTINATION ${document_folder})

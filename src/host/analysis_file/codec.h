@@ -1,4 +1,5 @@
-// codec.h — AssetAnalysis <-> payload bytes (protobuf scene_analyzer.v1.Analysis). Inside this room only.
+// codec.h — AssetAnalysis <-> bytes of the protobuf message scene_analyzer.v1.Analysis: the payload of
+// analysis files, and what services send each other.
 #pragma once
 
 #include <string>

@@ -14,15 +14,12 @@
 #include "cli/check_command.h"
 #include "cli/devices_command.h"
 #include "cli/exit_code.h"
-#include "cli/interrupt.h"
-#include "cli/logging.h"
 #include "cli/merge_command.h"
 #include "cli/option_parsing.h"
-#include "cli/run_state.h"
+#include "cli/run_command.h"
+#include "cli/serve_program.h"
 #include "cli/view_command.h"
-#include "gpu/error.h"
 #include "import/import.h"
-#include "window/window.h"
 
 namespace scene_analyzer::cli {
 namespace {
@@ -39,6 +36,7 @@ constexpr const char* kHelp =
     "  batch     analyse a library: folders of assets, on one machine or many\n"
     "  merge     rate such a library as one scene\n"
     "  view      look at the rated scene in a window\n"
+    "  serve     analyse, rate and draw for programs elsewhere, over gRPC\n"
     "  devices   list the devices that can compute, or test one against known results\n"
     "  cache     remove old analysis files\n"
     "\n"
@@ -52,12 +50,13 @@ using Command = int (*)(std::span<const std::string>);
 const std::map<std::string, Command> kCommands = {{"analyze", analyze_command}, {"batch", batch_command},
                                                   {"cache", cache_command},     {"check", check_command},
                                                   {"devices", devices_command}, {"merge", merge_command},
-                                                  {"view", view_command}};
+                                                  {"serve", serve_program},     {"view", view_command}};
 
 int dispatch(const std::vector<std::string>& arguments) {
   if (arguments.empty())
     throw UsageError(
-        "no command is given: analyze, check, batch, merge, view, devices or cache; see scene-analyzer "
+        "no command is given: analyze, check, batch, merge, view, serve, devices or cache; see "
+        "scene-analyzer "
         "--help");
   const std::string& name = arguments.front();
   if (name == "--help" || name == "-h" || name == "help") {
@@ -68,56 +67,13 @@ int dispatch(const std::vector<std::string>& arguments) {
     fmt::print("scene-analyzer {}\n", version());
     return kSuccess;
   }
-  if (const auto command = kCommands.find(name); command != kCommands.end()) try {
-      return command->second(std::span(arguments).subspan(1));
-    } catch (const import::Stopped&) {
-      check_interrupt();  // which is what has stopped it
-      throw;
-    }
+  if (const auto command = kCommands.find(name); command != kCommands.end())
+    return command->second(std::span(arguments).subspan(1));
   std::vector<std::string> names;
   for (const auto& [known, command] : kCommands) names.push_back(known);
   const std::string meant = nearest(name, names);
   throw UsageError(fmt::format("unknown command '{}'{}; see scene-analyzer --help", name,
                                meant.empty() ? "" : fmt::format(", did you mean {}?", meant)));
-}
-
-int report_error(int code, const std::exception& error, const std::string& remedy = "") {
-  log_error(fmt::format("{}{}", error.what(), remedy));
-  return code;
-}
-
-int run(const std::vector<std::string>& arguments) {
-  set_up_logging(LogLevel::kNormal);  // until the command knows better
-  try {
-    return dispatch(arguments);
-  } catch (const UsageError& error) {
-    return report_error(kUnusable, error);
-  } catch (const InputError& error) {
-    return report_error(kInputFailed, error);
-  } catch (const gpu::NoDevice& error) {
-    return report_error(
-        kUnusable, error,
-        "; 'scene-analyzer devices' lists what is there, and the package mesa-vulkan-drivers brings a "
-        "device that runs on the processor");
-  } catch (const gpu::DeviceLost& error) {
-    const std::string state = describe_run_state();
-    return report_error(kUnusable, error, state.empty() ? "" : " The run has ended " + state);
-  } catch (const gpu::OutOfMemory& error) {
-    return report_error(
-        kUnusable, error,
-        "; close other programs that use the device, analyse fewer assets at once or choose another "
-        "device with --device");
-  } catch (const gpu::Error& error) {
-    return report_error(kUnusable, error);
-  } catch (const window::NoDisplay& error) {
-    return report_error(kUnusable, error,
-                        "; without a display, 'scene-analyzer analyze FILE --image FILE.png' draws pictures");
-  } catch (const Interrupted& stop) {
-    say_stopped();
-    return stop.exit_code();
-  } catch (const std::exception& error) {
-    return report_error(kUnusable, error, " (a defect of scene-analyzer; please report it with the command)");
-  }
 }
 
 }  // namespace
@@ -127,5 +83,6 @@ int main(int argc, char** argv) {
   // First of all: the import worker is this program, and needs nothing of the rest.
   if (argc > 1 && std::string(argv[1]) == scene_analyzer::import::kWorkerArgument)
     return scene_analyzer::import::worker_main(argc, argv);
-  return scene_analyzer::cli::run({argv + (argc > 0 ? 1 : 0), argv + argc});
+  const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return scene_analyzer::cli::run_command([&] { return scene_analyzer::cli::dispatch(arguments); });
 }

@@ -31,6 +31,7 @@ MetricSet set_of(std::initializer_list<Metric> metrics) {
 const MetricSet kOptionalMetrics =
     set_of({Metric::kPolygonsPerPlanarGroup, Metric::kPlanarGroupVariation, Metric::kCooccurrenceContrast,
             Metric::kFourierTransform, Metric::kRenderingTime});
+constexpr std::size_t kMostTimings = 64;  // that are kept of one asset
 constexpr std::size_t kTiming = index_of(Metric::kRenderingTime);
 // Their stored part is counts, areas and bounds, which every analysis holds.
 const MetricSet kCommonMetrics = set_of({Metric::kRelativeDensity, Metric::kDistance});
@@ -67,6 +68,7 @@ bool is_of_an_older_program(const AssetAnalysis& analysis) {
 // Times that are missing may be there on the next try.
 AssetAnalysis without_incomplete_timings(AssetAnalysis analysis) {
   std::erase_if(analysis.timings, is_incomplete);
+  if (analysis.timings.size() > kMostTimings) analysis.timings.resize(kMostTimings);  // the newest come first
   analysis.computed.set(kTiming, !analysis.timings.empty());
   return analysis;
 }
@@ -121,9 +123,9 @@ std::unique_ptr<PendingAnalysis> Pipeline::start(const mesh::AssetSource& asset,
 }
 
 std::unique_ptr<PendingAnalysis> Pipeline::prepare(const mesh::AssetSource& asset, const Progress& progress,
-                                                   std::shared_ptr<const Options> options) {
+                                                   const std::shared_ptr<const Options>& options) {
   std::unique_ptr<PendingAnalysis> pending(
-      new PendingAnalysis(asset, progress, options ? std::move(options) : options_));
+      new PendingAnalysis(asset, progress, options ? options : options_));
   attempt(asset, pending->outcome_, [&] {
     MetricSet wanted = pending->options_->metrics & kOptionalMetrics;
     // A signal's summary is stored: it has to count as computed, for its parameter to be compared later.
@@ -221,6 +223,15 @@ std::shared_ptr<const Pipeline::KnownDevice> Pipeline::start_device() {
   return known_device_;
 }
 
+gpu::Device& Pipeline::device() {
+  start_device();
+  return *gpu_;
+}
+
+analysis::DeviceStamp Pipeline::device_stamp() {
+  return start_device()->stamp;
+}
+
 void Pipeline::forget_device() {
   const std::lock_guard lock(device_mutex_);
   render_timer_.reset();
@@ -288,6 +299,7 @@ void Pipeline::store(PendingAnalysis& pending) {
     // Results are as good as ever, only the next run takes as long as this one.
     outcome.write_error = error.what();
     outcome.others_can_be_written = error.is_the_assets();
+    const std::lock_guard lock(folders_mutex_);
     if (error.is_the_assets())
       outcome.messages.push_back(fmt::format("{}; this analysis is not kept", error.what()));
     else if (unwritable_folders_.insert(pending.store_->folder_of(pending.asset_)).second)

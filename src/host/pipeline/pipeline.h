@@ -84,16 +84,18 @@ class Pipeline {
   // its search has threads on all processors: few should be pending. Destroy them before the pipeline.
   // Where is_timed_alone(), finish what is pending before the next is started.
   std::unique_ptr<PendingAnalysis> start(const mesh::AssetSource& asset, const Progress& progress = {});
+  // Of what has nothing to measure by any thread, several at the same time.
   Outcome finish(std::unique_ptr<PendingAnalysis> pending);
   // Whether rendering is timed on a device that a search on the host would slow down; of assets that were
   // given no options of their own.
   bool is_timed_alone() const { return is_timed_alone(*options_); }
+  bool is_timed_alone(const Options& options) const;
 
   // start() in two steps, for many assets. The first may be taken by several threads at the same time: reads
   // the analysis file or imports the asset. Throws import::Stopped. Memory: the scene, until it is finished.
   // With `options` for this asset.
   std::unique_ptr<PendingAnalysis> prepare(const mesh::AssetSource& asset, const Progress& progress = {},
-                                           std::shared_ptr<const Options> options = nullptr);
+                                           const std::shared_ptr<const Options>& options = nullptr);
   // The second, for one thread. A single asset is measured as by start(); the meshes of several share batches
   // on the device where their parameters and metrics are the same, with the results that each would have had
   // alone. All were made by prepare() of this pipeline; without Options::histograms and signals.
@@ -103,6 +105,9 @@ class Pipeline {
   using Finished = std::function<void(std::size_t index, Outcome outcome)>;
   void finish_pack(std::unique_ptr<PendingPack> pack, const Finished& finished);
 
+  // What is measured on. Throws gpu::NoDevice.
+  gpu::Device& device();
+  analysis::DeviceStamp device_stamp();
   // After gpu::DeviceLost, when nothing is pending any more but what prepare() made: the next measurement
   // asks for a device again.
   void forget_device();
@@ -128,7 +133,6 @@ class Pipeline {
   void find_times(PendingAnalysis& pending);
   void time(PendingAnalysis& pending);
   bool can_time(Outcome& outcome);  // says it in `outcome` when the device cannot
-  bool is_timed_alone(const Options& options) const;
   void keep_wanted_timings(const Options& options, analysis::AssetAnalysis& analysis);
   // What rendering times have to be made under.
   analysis::RenderTiming::Conditions timing_conditions(const Options& options);
@@ -140,6 +144,7 @@ class Pipeline {
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<render_timing::RenderTimer> render_timer_;
   gpu::Device* gpu_ = nullptr;
+  std::mutex folders_mutex_;
   std::set<std::filesystem::path> unwritable_folders_;  // already complained about
 };
 
