@@ -40,6 +40,7 @@ std::string content_key(const analysis::AssetAnalysis& analysis);
 struct Unusable {
   bool absent = false;
   std::string reason;
+  bool may_pass = false;  // the system could not read it now; what it holds may be all right
 };
 
 std::variant<analysis::AssetAnalysis, Unusable> load(const std::filesystem::path& file);

@@ -31,7 +31,7 @@ std::variant<std::string, Unusable> read_bytes(const std::filesystem::path& path
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::no_such_file_or_directory || error.code() == std::errc::not_a_directory)
       return Unusable{true, "is absent"};
-    return because("cannot be read: " + files::describe(error.code()));
+    return Unusable{false, "cannot be read: " + files::describe(error.code()), true};
   }
 }
 

@@ -24,11 +24,16 @@ namespace fs = std::filesystem;
 using analysis::AssetAnalysis;
 
 constexpr std::size_t kKeyDigits = 32;
+constexpr std::size_t kFolderDigits = 2;
 constexpr std::string_view kSuffix = ".analysis";
 constexpr std::size_t kMostPerAsset = 8;
 
+bool is_hexadecimal(std::string_view text, std::size_t digits) {
+  return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 bool is_key(std::string_view text) {
-  return text.size() == kKeyDigits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return is_hexadecimal(text, kKeyDigits);
 }
 
 // The content key of an asset that refers to nothing else.
@@ -76,7 +81,9 @@ ContentStore::~ContentStore() {
 void ContentStore::read_folder() {
   std::vector<std::pair<fs::file_time_type, Entry>> found;
   for (const auto& part : fs::directory_iterator(folder_)) {
-    if (part.is_symlink() || !part.is_directory()) continue;
+    // Others, such as a file system's lost+found, are not ours and perhaps cannot be read.
+    if (part.is_symlink() || !is_hexadecimal(part.path().filename().string(), kFolderDigits)) continue;
+    if (!part.is_directory()) continue;
     for (const auto& file : fs::directory_iterator(part)) {
       const std::string name = file.path().filename().string();
       std::error_code ignored;  // of a file that was just removed by somebody
@@ -96,7 +103,7 @@ void ContentStore::read_folder() {
 }
 
 fs::path ContentStore::path_of(const Entry& entry) const {
-  return folder_ / entry.content_key.substr(0, 2) /
+  return folder_ / entry.content_key.substr(0, kFolderDigits) /
          fmt::format("{}-{}{}", entry.content_key, entry.asset_key, kSuffix);
 }
 
@@ -146,12 +153,16 @@ fs::path ContentStore::folder_of(const mesh::AssetSource&) const {
 std::optional<AssetAnalysis> ContentStore::get(const std::string& content_key) {
   const std::optional<Entry> entry = entry_of(content_key);
   if (!entry) return std::nullopt;
-  auto loaded = analysis_file::load(path_of(*entry));
+  const fs::path path = path_of(*entry);
+  auto loaded = analysis_file::load(path);
   if (auto* analysis = std::get_if<AssetAnalysis>(&loaded)) {
     note_use(content_key);
+    std::error_code ignored;  // of a file that has just gone; else the next service knows of its use, as of
+                              // what load_valid() has read
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
     return std::move(*analysis);
   }
-  if (!std::get<analysis_file::Unusable>(loaded).absent) return std::nullopt;  // it may be readable again
+  if (std::get<analysis_file::Unusable>(loaded).may_pass) return std::nullopt;
   const std::lock_guard lock(mutex_);
   forget(content_key);
   return std::nullopt;
