@@ -73,6 +73,10 @@ std::string known_extension_of(const std::filesystem::path& name);
 // What this kernel does not offer to keep the worker in, one sentence each; empty where all is there.
 std::vector<std::string> missing_isolation();
 
+// Looks for the worker's program, which the first import does otherwise. A program that runs for long calls
+// it at its start: a newer version that is installed meanwhile is not its worker.
+void find_worker();
+
 // The worker's main: called by main() when the first argument is kWorkerArgument. Returns the exit code.
 int worker_main(int argc, char** argv);
 

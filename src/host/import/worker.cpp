@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <assimp/Importer.hpp>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -121,6 +122,12 @@ void run(const Job& job) {
   }
 }
 
+// What is told to whoever asked, perhaps over a network, does not name the folder.
+void enter(const std::filesystem::path& folder) {
+  if (::chdir(folder.c_str()) != 0)
+    throw std::system_error(errno, std::generic_category(), "entering the asset's folder");
+}
+
 // Near the limit glibc finds no room for a second thread's arena and gives every small block a mapping of its
 // own, which is a thousand times slower and lasts until the time limit: one arena for all.
 void use_one_arena() {
@@ -159,7 +166,7 @@ int worker_main(int argc, char** argv) {
             number(argv[8]) != 0};
     // The stack is room that most files never touch: it comes on top of what the import may take.
     limit_this_process(number(argv[3]) + kStackBytes, number(argv[4]), static_cast<pid_t>(number(argv[5])));
-    if (job.asset.has_parent_path()) std::filesystem::current_path(job.asset.parent_path());
+    if (job.asset.has_parent_path()) enter(job.asset.parent_path());
     allow_reading_only(".", job.asset.filename());
     allow_computing_only();
     std::set_new_handler(report_out_of_memory);

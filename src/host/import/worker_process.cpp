@@ -22,8 +22,8 @@
 #include <system_error>
 #include <vector>
 
-#include "files/helper_program.h"
 #include "import/wire.h"
+#include "import/worker_binary.h"
 
 namespace scene_analyzer::import {
 namespace {
@@ -49,24 +49,6 @@ class Descriptor {
  private:
   int value_;
 };
-
-// The program that is nothing but the worker: it needs none of the libraries of everything else, and starts
-// in a third of the time. This program itself does the same, where that one is not installed or was replaced
-// by another version since this one has looked first.
-std::string worker_program() {
-  struct Found {
-    std::string path = files::helper_program(kWorkerProgram).string();
-    struct stat state = {};
-    bool is_there = !path.empty() && ::stat(path.c_str(), &state) == 0;
-  };
-  static const Found found;
-  struct stat now {};
-  const bool unchanged = found.is_there && ::stat(found.path.c_str(), &now) == 0 &&
-                         now.st_dev == found.state.st_dev && now.st_ino == found.state.st_ino &&
-                         now.st_mtim.tv_sec == found.state.st_mtim.tv_sec &&
-                         now.st_mtim.tv_nsec == found.state.st_mtim.tv_nsec;
-  return unchanged ? found.path : "/proc/self/exe";
-}
 
 // What the child gets: no descriptor but /dev/null and the answer, no blocked or ignored signal.
 class SpawnPlan {

@@ -17,9 +17,6 @@ namespace scene_analyzer::import {
 // The worker finds its answer's memory under this descriptor; 0 to 2 are /dev/null and nothing else is open.
 inline constexpr int kAnswerDescriptor = 3;
 
-// The program that is the worker alone; see files/helper_program.h for its place.
-inline constexpr const char* kWorkerProgram = "scene-analyzer-import";
-
 // The worker crashed or exceeded a limit: one sentence without the asset's name.
 class WorkerFailure : public std::runtime_error {
  public:

@@ -1,6 +1,7 @@
 #include "serve/serve_command.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <csignal>
@@ -46,6 +47,15 @@ std::optional<int> drain(const BlockedSignals& signals, RunningService& service,
   return std::nullopt;
 }
 
+// As many as this process is allowed: every client, and every file that it sends, takes one.
+void allow_many_files() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur == files.rlim_max) return;
+  files.rlim_cur = files.rlim_max;
+  if (::setrlimit(RLIMIT_NOFILE, &files) != 0)
+    cli::log_warning("the limit of open files stays as low as it is; many clients at once may be refused");
+}
+
 int serve(const ServeRequest& request, const BlockedSignals& signals, cli::LazyDevice& device) {
   RunningService service(request, device);
   cli::log_note(fmt::format("listening on {} ({}); analyses are computed on {}", service.address(),
@@ -66,6 +76,8 @@ int serve_command(std::span<const std::string> arguments) {
   request.json_log ? set_up_json_logging(request.log) : cli::set_up_logging(request.log);
   const BlockedSignals signals({SIGTERM, SIGINT, SIGHUP});
   std::signal(SIGPIPE, SIG_IGN);  // clients may leave at any time
+  import::find_worker();
+  allow_many_files();
   for (const std::string& missing : import::missing_isolation()) cli::log_warning(missing);
   cli::LazyDevice device(cli::device_options(request.device));
   const int code = serve(request, signals, device);
