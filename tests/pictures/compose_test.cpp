@@ -45,6 +45,19 @@ TEST(Compose, TheViewIsThereAsItWasDrawn) {
     }
 }
 
+TEST(Compose, WhoeverLooksMayEndIt) {
+  struct Enough {};
+  const auto view = colorful(300, 200 - legend_height(300, 200));
+  int looks = 0;
+  const auto look = [&] {
+    if (++looks == 3) throw Enough();
+  };
+  EXPECT_THROW(compose(view, {}, sample_legend(), 200, look), Enough);
+  EXPECT_EQ(looks, 3) << "it went on";
+  const std::string alone = compose(view, {}, sample_legend(), 200);
+  EXPECT_TRUE(alone == compose(view, {}, sample_legend(), 200, [] {}));
+}
+
 // Whether the row has all the colours of the bar from left to right, and where it begins and ends.
 void expect_bar(const Png& png, int y, const Legend& legend) {
   int begin = 0, end = png.width;

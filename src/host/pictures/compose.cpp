@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <new>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "report/terminal_text.h"
 #include "scene_render/look.h"
@@ -183,13 +185,31 @@ void copy_view(const scene_render::Picture& view, cairo_surface_t* surface) {
   cairo_surface_mark_dirty(surface);
 }
 
+struct Output {
+  std::string bytes;
+  const std::function<void()>& look;
+  std::exception_ptr thrown;
+};
+
+// Nothing may be thrown through Cairo.
 cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
+  Output& output = *static_cast<Output*>(closure);
   try {
-    static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
+    if (output.look) output.look();
+    output.bytes.append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
-  } catch (const std::exception&) {
-    return CAIRO_STATUS_NO_MEMORY;
+  } catch (...) {
+    output.thrown = std::current_exception();
+    return CAIRO_STATUS_WRITE_ERROR;
   }
+}
+
+std::string compress(cairo_surface_t* surface, const std::function<void()>& look) {
+  Output output{{}, look, nullptr};
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface, append, &output);
+  if (output.thrown) std::rethrow_exception(output.thrown);
+  check(status);
+  return std::move(output.bytes);
 }
 
 }  // namespace
@@ -204,7 +224,7 @@ double mark_radius(std::uint32_t width, std::uint32_t height) {
 }
 
 std::string compose(const scene_render::Picture& view, std::span<const Mark> marks, const Legend& legend,
-                    std::uint32_t height) {
+                    std::uint32_t height, const std::function<void()>& look) {
   const Surface surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(view.width), static_cast<int>(height)));
   check(cairo_surface_status(surface.get()));
@@ -212,9 +232,7 @@ std::string compose(const scene_render::Picture& view, std::span<const Mark> mar
   draw_marks(surface.get(), marks, scale_of(view.width, height), view.width);
   if (view.height < height)
     draw_legend(surface.get(), legend, view.height, scale_of(view.width, height), view.width);
-  std::string png;
-  check(cairo_surface_write_to_png_stream(surface.get(), append, &png));
-  return png;
+  return compress(surface.get(), look);
 }
 
 }  // namespace scene_analyzer::pictures

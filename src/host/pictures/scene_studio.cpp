@@ -69,7 +69,7 @@ const ratings::SceneRating& SceneStudio::rating_of(const Content& content) {
   return *other_mode_;
 }
 
-std::string SceneStudio::draw(const Content& content) {
+std::string SceneStudio::draw(const Content& content, const std::function<void()>& look) {
   const ratings::SceneRating& rating = rating_of(content);
   const std::uint32_t width = format_.width;
   const std::uint32_t rows = format_.height - legend_height(width, format_.height);
@@ -81,7 +81,7 @@ std::string SceneStudio::draw(const Content& content) {
                                          mark_radius(width, format_.height));
   Legend legend = make_legend(content, rating, scene_name(scene_.assets));
   if (content.subject == Subject::kPlanarGroups) legend.without_value = has_unknown_groups();
-  return compose(view, marks, legend, format_.height);
+  return compose(view, marks, legend, format_.height, look);
 }
 
 bool SceneStudio::has_unknown_groups() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,8 +43,9 @@ class SceneStudio {
   std::string name_of(std::size_t row) const;  // "mesh 3 (lamp)"
 
   // The bytes of a PNG file. Throws gpu::OutOfMemory, gpu::DeviceLost, gpu::Error for a size beyond the
-  // device, std::bad_alloc.
-  std::string draw(const Content& content);
+  // device, std::bad_alloc, and what `look` does, which is called again and again while a large picture is
+  // compressed.
+  std::string draw(const Content& content, const std::function<void()>& look = {});
 
  private:
   void frame();
