@@ -1,7 +1,6 @@
 # The service, asked by a client that shares no code with it: Python's gRPC, which Debian's own Python has.
 find_program(DEBIAN_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 find_program(GRPC_PYTHON_PLUGIN grpc_python_plugin REQUIRED)
-find_path(GRPC_PROTO grpc/health/v1/health.proto PATHS /usr/share/grpc-proto REQUIRED)
 set(stubs ${CMAKE_BINARY_DIR}/service-stubs)
 set(own_protos scene_analyzer/v1/analysis.proto scene_analyzer/v1/service.proto)
 set(grpc_protos grpc/health/v1/health.proto grpc/reflection/v1alpha/reflection.proto)

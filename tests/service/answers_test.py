@@ -161,9 +161,10 @@ class Answers(unittest.TestCase):
         answer = next(reflection.ServerReflectionInfo(iter([request])))
         names = [service.name for service in answer.list_services_response.service]
         self.assertIn("scene_analyzer.v1.SceneAnalyzer", names)
-        request = reflection_pb2.ServerReflectionRequest(file_containing_symbol="scene_analyzer.v1.SceneAnalyzer")
-        answer = next(reflection.ServerReflectionInfo(iter([request])))
-        self.assertGreater(len(answer.file_descriptor_response.file_descriptor_proto), 0)
+        for symbol in ("scene_analyzer.v1.SceneAnalyzer", "grpc.health.v1.Health"):
+            request = reflection_pb2.ServerReflectionRequest(file_containing_symbol=symbol)
+            answer = next(reflection.ServerReflectionInfo(iter([request])))
+            self.assertGreater(len(answer.file_descriptor_response.file_descriptor_proto), 0, symbol)
 
     def test_request_ids_come_back_and_are_in_the_log(self):
         call = self.stub.ListDevices.with_call

@@ -10,6 +10,10 @@
 
 namespace scene_analyzer::rpc {
 
+// Says gRPC of a message that is no message, or of the wrong kind.
+inline constexpr const char* kCannotBeParsed =
+    "a message cannot be parsed; are its names UTF-8, and is the .proto the same?";
+
 class Call {
  public:
   Call(Backend& backend, const char* method, grpc::ServerContext& context);

@@ -59,9 +59,7 @@ class AssetReceiver {
     }
     call_.check_cancelled();  // the end of a broken connection is no end of files
     // gRPC also says so of a message that it cannot parse.
-    if (read(request))
-      throw Refusal(Reason::kInvalid,
-                    "a message cannot be parsed; are its names UTF-8, and is the .proto the same?");
+    if (read(request)) throw Refusal(Reason::kInvalid, kCannotBeParsed);
     mesh::AssetSource asset = upload->finish();
     call_.record().asset = asset.name;
     return {std::move(asset), upload};

@@ -21,11 +21,20 @@ using service::Refusal;
 
 constexpr std::size_t kMostInstances = 1'000'000;  // that are rated together: some 500 MB
 
-template <typename Response, typename Request>
-void write(Call& call, grpc::ServerReaderWriter<Response, Request>& stream, PeerWatch& watch,
-           const Response& response) {
+template <typename Stream, typename Response>
+void write(Call& call, Stream& stream, PeerWatch& watch, const Response& response) {
   const PeerWatch::Wait wait(watch, call.context(), response.ByteSizeLong());
   if (!stream.Write(response)) throw Refusal(Reason::kCancelled, "the client no longer reads the answer");
+}
+
+// Of a call that has one message.
+template <typename Request, typename Response>
+Request read(Call& call, grpc::ServerUnaryStreamer<Request, Response>& stream, PeerWatch& watch) {
+  Request request;
+  const PeerWatch::Wait wait(watch, call.context());
+  if (stream.Read(&request)) return request;
+  call.check_cancelled();
+  throw Refusal(Reason::kInvalid, kCannotBeParsed);
 }
 
 }  // namespace
@@ -83,32 +92,37 @@ grpc::Status SceneAnalyzerService::Render(
   });
 }
 
-grpc::Status SceneAnalyzerService::Rate(grpc::ServerContext* context, const v1::RateRequest* request,
-                                        v1::RateResponse* response) {
+grpc::Status SceneAnalyzerService::StreamedRate(
+    grpc::ServerContext* context, grpc::ServerUnaryStreamer<v1::RateRequest, v1::RateResponse>* stream) {
   Call call(backend_, "Rate", *context);
   return call.run([&] {
     const service::Admission::Ticket ticket = backend_.admission.admit();
-    if (request->assets().empty())
-      throw Refusal(Reason::kInvalid, "assets: there is none; name at least one");
-    const ratings::Options options = read_rating(request->rating());
-    std::vector<analysis::AssetAnalysis> analyses;
-    std::size_t instances = 0;
-    for (const v1::AnalysisReference& asset : request->assets()) {
-      call.check_cancelled();
-      const std::string where = fmt::format("assets[{}]", analyses.size());
-      if (asset.has_analysis())
-        analyses.push_back(from_message(asset.analysis(), where));
-      else if (!asset.content_key().empty())
-        analyses.push_back(find_analysis(asset.content_key()));
-      else
-        throw Refusal(Reason::kInvalid, where + ": holds neither a content key nor an analysis");
-      instances += analyses.back().instances.size() + 1;
-      if (instances > kMostInstances)
-        throw Refusal(Reason::kTooLarge,
-                      fmt::format("the scene has more than {} meshes; rate parts of it", kMostInstances));
-    }
-    *response = to_message(ratings::rate(analyses, options));
+    const v1::RateRequest request = read(call, *stream, watch_);
+    const ratings::Options options = read_rating(request.rating());
+    write(call, *stream, watch_, to_message(ratings::rate(find_analyses(call, request), options)));
   });
+}
+
+std::vector<analysis::AssetAnalysis> SceneAnalyzerService::find_analyses(
+    const Call& call, const v1::RateRequest& request) const {
+  if (request.assets().empty()) throw Refusal(Reason::kInvalid, "assets: there is none; name at least one");
+  std::vector<analysis::AssetAnalysis> analyses;
+  std::size_t instances = 0;
+  for (const v1::AnalysisReference& asset : request.assets()) {
+    call.check_cancelled();
+    const std::string where = fmt::format("assets[{}]", analyses.size());
+    if (asset.has_analysis())
+      analyses.push_back(from_message(asset.analysis(), where));
+    else if (!asset.content_key().empty())
+      analyses.push_back(find_analysis(asset.content_key()));
+    else
+      throw Refusal(Reason::kInvalid, where + ": holds neither a content key nor an analysis");
+    instances += analyses.back().instances.size() + 1;
+    if (instances > kMostInstances)
+      throw Refusal(Reason::kTooLarge,
+                    fmt::format("the scene has more than {} meshes; rate parts of it", kMostInstances));
+  }
+  return analyses;
 }
 
 analysis::AssetAnalysis SceneAnalyzerService::find_analysis(const std::string& content_key) const {
@@ -118,23 +132,30 @@ analysis::AssetAnalysis SceneAnalyzerService::find_analysis(const std::string& c
                 fmt::format("no analysis has the content key '{}' (any more)", content_key));
 }
 
-grpc::Status SceneAnalyzerService::GetAnalysis(grpc::ServerContext* context,
-                                               const v1::GetAnalysisRequest* request,
-                                               v1::GetAnalysisResponse* response) {
+grpc::Status SceneAnalyzerService::StreamedGetAnalysis(
+    grpc::ServerContext* context,
+    grpc::ServerUnaryStreamer<v1::GetAnalysisRequest, v1::GetAnalysisResponse>* stream) {
   Call call(backend_, "GetAnalysis", *context);
   return call.run([&] {
     const service::Admission::Ticket ticket = backend_.admission.admit();
-    *response->mutable_analysis() = to_message(find_analysis(request->content_key()));
+    v1::GetAnalysisResponse response;
+    const v1::GetAnalysisRequest request = read(call, *stream, watch_);
+    *response.mutable_analysis() = to_message(find_analysis(request.content_key()));
+    write(call, *stream, watch_, response);
   });
 }
 
-grpc::Status SceneAnalyzerService::ListDevices(grpc::ServerContext* context, const v1::ListDevicesRequest*,
-                                               v1::ListDevicesResponse* response) {
+grpc::Status SceneAnalyzerService::StreamedListDevices(
+    grpc::ServerContext* context,
+    grpc::ServerUnaryStreamer<v1::ListDevicesRequest, v1::ListDevicesResponse>* stream) {
   Call call(backend_, "ListDevices", *context);
   return call.run([&] {
+    read(call, *stream, watch_);
     const analysis::DeviceStamp used = backend_.executor.device();
+    v1::ListDevicesResponse response;
     for (const gpu::DeviceInfo& device : backend_.devices)
-      *response->add_devices() = to_message(device, device.id == used.id && device.name == used.name);
+      *response.add_devices() = to_message(device, device.id == used.id && device.name == used.name);
+    write(call, *stream, watch_, response);
   });
 }
 

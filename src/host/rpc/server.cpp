@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "grpc/health/v1/health.pb.h"
 #include "rpc/credentials.h"
 #include "rpc/scene_analyzer_service.h"
 
@@ -66,6 +67,7 @@ struct Server::Parts {
 
 Server::Server(const ServerOptions& options, Backend& backend) : parts_(std::make_unique<Parts>(backend)) {
   grpc::EnableDefaultHealthCheckService(true);
+  grpc::health::v1::HealthCheckRequest::descriptor();  // has it linked, for reflection
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   int port = 0;
@@ -83,7 +85,7 @@ Server::Server(const ServerOptions& options, Backend& backend) : parts_(std::mak
     throw UsageError(fmt::format(
         "--listen: nobody can listen at '{}'; is the port taken, or is that no address of this machine?",
         options.address));
-  set_serving(false);
+  set_serving(true);
   address_ = fmt::format("{}:{}", options.address.substr(0, options.address.rfind(':')), port);
 }
 

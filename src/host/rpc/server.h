@@ -32,7 +32,7 @@ bool is_loopback(const std::string& address);
 // With grpc.health.v1 for "" and "scene_analyzer.v1.SceneAnalyzer", and server reflection.
 class Server {
  public:
-  // Listens from now on, not yet serving. Throws UsageError when the address cannot be had or the
+  // Listens and serves from now on. Throws UsageError when the address cannot be had or the
   // certificates cannot be used. `backend` must outlive it.
   Server(const ServerOptions& options, Backend& backend);
   // As shut_down() with no time left.

@@ -78,14 +78,13 @@ RunningService::RunningService(const ServeRequest& request, cli::LazyDevice& dev
                                 .log_error = [](const std::string& message) { cli::log_error(message); }});
   executor_->device();  // nobody is told that the service is there before it can work
   rpc::forward_grpc_log([](const std::string& message) { cli::log_detail("gRPC: " + message); });
-  server_.emplace(request.server, *backend_);
   if (request.metrics_address) {
     const int port = metrics_.listen(*request.metrics_address);
     const std::string& address = *request.metrics_address;
     cli::log_note(
         fmt::format("metrics at http://{}:{}/metrics", address.substr(0, address.rfind(':')), port));
   }
-  server_->set_serving(true);
+  server_.emplace(request.server, *backend_);
 }
 
 RunningService::~RunningService() {
@@ -99,7 +98,7 @@ std::string RunningService::device_name() {
 
 service::Levels RunningService::levels() const {
   service::Levels levels;
-  const service::Executor::Depth depth = executor_->depth();
+  const service::WorkQueue::Depth depth = executor_->depth();
   levels.waiting = depth.waiting;
   levels.ready = depth.ready;
   levels.admitted = admission_.admitted();
