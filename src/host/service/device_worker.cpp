@@ -17,9 +17,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kUntilLessGoesOn(10'000);
-constexpr const char* kDefect = "a defect of the service; its log says more";
-
 std::uint64_t triangles_of(const analysis::AssetAnalysis& analysis) {
   std::uint64_t triangles = 0;
   for (const auto& geometry : analysis.geometries) triangles += geometry.source_triangles;
@@ -45,10 +42,8 @@ Answer answer_of(pipeline::Outcome outcome, Metrics& metrics) {
   Answer answer;
   answer.messages = std::move(outcome.messages);
   if (!outcome.analysis) {
-    if (outcome.may_succeed_alone)
-      answer.refusal.emplace(Reason::kBusy, outcome.error, kUntilLessGoesOn);
-    else
-      answer.refusal.emplace(Reason::kInvalid, outcome.error);
+    // What needs more than there is was tried with nothing beside it.
+    answer.refusal.emplace(outcome.may_succeed_alone ? Reason::kTooLarge : Reason::kInvalid, outcome.error);
     return answer;
   }
   answer.analysis = std::move(outcome.analysis);
@@ -69,7 +64,7 @@ DeviceWorker::DeviceWorker(pipeline::Pipeline& pipeline, Metrics& metrics, Worke
     : pipeline_(pipeline), metrics_(metrics), events_(std::move(events)) {}
 
 DeviceWorker::~DeviceWorker() {
-  for (const auto& pack : pending_) refuse_all(*pack, Reason::kUnavailable, "the service is shutting down");
+  for (const auto& pack : pending_) refuse_all(*pack, Reason::kUnavailable, kShuttingDown);
 }
 
 void DeviceWorker::start(std::vector<Imported> imported) {
@@ -155,22 +150,23 @@ bool DeviceWorker::attempt(Pack& pack, const std::function<void()>& step) {
 void DeviceWorker::lose(Pack& pack, const std::string& what) {
   metrics_.count_device_loss();
   events_.error(what);
-  const auto give_up = [&](Pack& lost, bool may_be_at_fault) {
+  const auto give_up = [&](Pack& lost, bool is_at_fault) {
     lost.pending.reset();
-    try_again_or_refuse(lost, may_be_at_fault, what);
+    try_again_or_refuse(lost, is_at_fault, what);
     events_.released(lost.bytes);
   };
-  give_up(pack, true);
+  const bool was_alone = pack.jobs.size() == 1;
+  if (was_alone && pending_.empty()) losses_.add(pack.jobs.front()->order().asset);
+  give_up(pack, was_alone);
   for (const auto& other : std::exchange(pending_, {})) give_up(*other, false);
   pipeline_.forget_device();
 }
 
-void DeviceWorker::try_again_or_refuse(const Pack& pack, bool may_be_at_fault, const std::string& what) {
-  const bool is_known = may_be_at_fault && pack.jobs.size() == 1;  // who it was
+void DeviceWorker::try_again_or_refuse(const Pack& pack, bool is_at_fault, const std::string& what) {
   for (const auto& job : pack.jobs) {
     if (!job || job->is_done()) continue;
     job->share_fate({});
-    if (!is_known && job->try_alone())
+    if (!is_at_fault && job->try_alone())
       events_.try_again(job);
     else
       job->refuse(Reason::kUnavailable, what + " The service goes on with a fresh device; try again");
@@ -188,7 +184,7 @@ void DeviceWorker::refuse_all(const Pack& pack, Reason reason, const std::string
 void DeviceWorker::answer(Pack& pack, std::size_t index, pipeline::Outcome outcome) {
   const std::shared_ptr<Job> job = pack.jobs[index];
   if (job->is_cancelled()) return job->refuse(Reason::kCancelled, GivenUp().what());
-  if (!outcome.analysis && outcome.may_succeed_alone && pack.jobs.size() > 1 && job->try_alone()) {
+  if (!outcome.analysis && outcome.may_succeed_alone && job->try_alone()) {
     job->share_fate({});
     pack.jobs[index] = nullptr;  // whatever becomes of the others
     return events_.try_again(job);

@@ -13,6 +13,7 @@
 #include "pipeline/pending_pack.h"
 #include "pipeline/pipeline.h"
 #include "service/job.h"
+#include "service/loss_record.h"
 #include "service/metrics.h"
 
 namespace scene_analyzer::service {
@@ -28,8 +29,9 @@ class GivenUp : public std::exception {
 struct Imported {
   std::shared_ptr<Job> job;
   std::unique_ptr<pipeline::PendingAnalysis> analysis;
-  mesh::Scene picture;      // with textures; where a picture was ordered
-  std::uint64_t bytes = 0;  // of memory
+  mesh::Scene picture;       // with textures; where a picture was ordered
+  std::uint64_t bytes = 0;   // of memory
+  bool wants_quiet = false;  // is measured with nothing imported beside it
 };
 
 // What a client is told.
@@ -54,6 +56,7 @@ class DeviceWorker {
   void finish_searched();
   void finish_all();
   std::size_t pending() const { return pending_.size(); }
+  const LossRecord& losses() const { return losses_; }
 
  private:
   struct Pack {
@@ -70,13 +73,14 @@ class DeviceWorker {
   void answer(Pack& pack, std::size_t index, pipeline::Outcome outcome);
   void draw(Job& job, mesh::Scene scene, Answer& answer);
   void lose(Pack& pack, const std::string& what);
-  void try_again_or_refuse(const Pack& pack, bool may_be_at_fault, const std::string& what);
+  void try_again_or_refuse(const Pack& pack, bool is_at_fault, const std::string& what);
   void refuse_all(const Pack& pack, Reason reason, const std::string& what);
 
   pipeline::Pipeline& pipeline_;
   Metrics& metrics_;
   const WorkerEvents events_;
   std::list<std::unique_ptr<Pack>> pending_;
+  LossRecord losses_;
 };
 
 }  // namespace scene_analyzer::service

@@ -47,7 +47,9 @@ std::string draw_picture(gpu::Device& device, Job& job, mesh::Scene scene,
                     "choose what is seen by eye and target",
                     studio.name_of(far->mesh)));
   report(1, "picture");
-  return studio.draw(order.content);
+  return studio.draw(order.content, [&] {
+    if (job.is_given_up()) throw GivenUp();
+  });
 }
 
 }  // namespace scene_analyzer::service

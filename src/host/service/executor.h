@@ -8,15 +8,10 @@
 // import answers goes past the device.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,6 +20,7 @@
 #include "service/device_worker.h"
 #include "service/job.h"
 #include "service/metrics.h"
+#include "service/work_queue.h"
 
 namespace scene_analyzer::service {
 
@@ -46,41 +42,25 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
   std::shared_ptr<Job> submit(Order order);
-
-  struct Depth {
-    std::size_t waiting = 0, ready = 0;
-  };
-  Depth depth() const;
+  WorkQueue::Depth depth() const { return queue_.depth(); }
   analysis::DeviceStamp device();  // throws gpu::NoDevice
 
  private:
   void run_imports();
   void run_device();
-  std::shared_ptr<Job> next_to_import();
   std::optional<Imported> prepare(const std::shared_ptr<Job>& job);
+  std::optional<Imported> import(const std::shared_ptr<Job>& job);
   void answer_without_device(const std::shared_ptr<Job>& job,
                              std::unique_ptr<pipeline::PendingAnalysis> analysis);
-  std::vector<Imported> take_pack();
-  void measure_alone(std::vector<Imported> pack);
-  void enqueue(std::shared_ptr<Job> job, bool first);
+  bool wants_quiet(const Job& job);
   void log(const std::string& message) const { log_error_(message); }
 
-  const ExecutorOptions options_;
   Metrics& metrics_;
   const std::function<void(const std::string&)> log_error_;
   pipeline::Pipeline pipeline_;
+  WorkQueue queue_;
   DeviceWorker worker_;
-
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::shared_ptr<Job>> waiting_;
-  std::deque<Imported> ready_;
-  std::uint64_t held_bytes_ = 0;
-  unsigned importing_ = 0;
-  std::set<std::shared_ptr<Job>> importing_jobs_;
-  bool paused_ = false;
-  std::atomic<bool> stopping_ = false;  // changed with the mutex held
-  std::vector<std::jthread> threads_;   // last: they use the others
+  std::vector<std::jthread> threads_;  // last: they use the others
 };
 
 }  // namespace scene_analyzer::service

@@ -23,6 +23,10 @@ inline constexpr std::size_t kReasonCount = 8;
 // "invalid", "not_found", ...: in metrics and the log.
 const char* to_string(Reason reason);
 
+// What clients are told of what is no concern of theirs; the log says more.
+inline constexpr const char* kDefect = "a defect of the service; its log says more";
+inline constexpr const char* kShuttingDown = "the service is shutting down";
+
 class Refusal : public std::runtime_error {
  public:
   Refusal(Reason reason, const std::string& what, std::optional<std::chrono::milliseconds> retry_after = {})

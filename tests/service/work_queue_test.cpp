@@ -1,0 +1,173 @@
+// Which job is imported next, and which go to the device together.
+#include "service/work_queue.h"
+
+#include "pipeline/pending_analysis.h"
+#include "service/executor_fixture.h"
+
+namespace scene_analyzer::service {
+namespace {
+
+using analysis::Metric;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Long enough for a thread that may go on to do so; one that does later makes a test pass that should not.
+constexpr std::chrono::milliseconds kAMoment(50);
+
+class WorkQueueTest : public ExecutorTest {
+ protected:
+  std::shared_ptr<Job> add(bool is_timed = false) {
+    Order one = order(cube_);
+    one.options.metrics[index_of(Metric::kRenderingTime)] = is_timed;
+    const auto job = std::make_shared<Job>(std::move(one));
+    queue_.add(job);
+    return job;
+  }
+  // As an import worker does.
+  Imported prepare(const std::shared_ptr<Job>& job, std::uint64_t bytes = 1) {
+    return {.job = job,
+            .analysis = pipeline_.prepare(job->order().asset, {}, job->options()),
+            .picture = {},
+            .bytes = bytes,
+            .wants_quiet = wants_times(*job)};
+  }
+  void import(const std::shared_ptr<Job>& job, std::uint64_t bytes = 1) {
+    queue_.imported(job, prepare(job, bytes));
+  }
+  std::vector<std::shared_ptr<Job>> take(std::size_t pending = 0) {
+    std::vector<std::shared_ptr<Job>> jobs;
+    for (Imported& one : queue_.take_pack(pending)) {
+      jobs.push_back(one.job);
+      queue_.release(one.bytes);
+    }
+    return jobs;
+  }
+  std::future<std::shared_ptr<Job>> next_later() {
+    return std::async(std::launch::async, [this] { return queue_.next_to_import(); });
+  }
+  static bool goes_on(std::future<std::shared_ptr<Job>>& next) {
+    return next.wait_for(kAMoment) == std::future_status::ready;
+  }
+
+  WorkQueue queue_{100};
+
+ private:
+  pipeline::Pipeline pipeline_{{}, device};
+};
+
+TEST_F(WorkQueueTest, TheFirstThatCameIsTheFirstThatIsImported) {
+  const auto a = add(), b = add();
+  EXPECT_EQ(queue_.next_to_import(), a);
+  const auto again = std::make_shared<Job>(order(cube_));
+  queue_.add(again, true);
+  EXPECT_EQ(queue_.depth().waiting, 2U);
+  EXPECT_EQ(queue_.next_to_import(), again);
+  EXPECT_EQ(queue_.next_to_import(), b);
+  EXPECT_EQ(queue_.depth().waiting, 0U);
+  queue_.end();
+}
+
+TEST_F(WorkQueueTest, WhatIsAlikeGoesTogether) {
+  std::vector<std::shared_ptr<Job>> jobs = {add(), add()};
+  Order other = order(cube_);
+  other.options.parameters.dim = 7;
+  jobs.push_back(std::make_shared<Job>(std::move(other)));
+  queue_.add(jobs.back());
+  jobs.push_back(add());
+  for (const auto& job : jobs) {
+    EXPECT_EQ(queue_.next_to_import(), job);
+    import(job);
+  }
+  EXPECT_EQ(queue_.depth().ready, 4U);
+  EXPECT_THAT(take(), ElementsAre(jobs[0], jobs[1], jobs[3]));
+  EXPECT_THAT(take(), ElementsAre(jobs[2]));
+}
+
+TEST_F(WorkQueueTest, WithManyPendingNothingIsTaken) {
+  const auto job = add();
+  import(queue_.next_to_import());
+  EXPECT_THAT(take(4), IsEmpty());
+  EXPECT_THAT(take(3), ElementsAre(job));
+}
+
+TEST_F(WorkQueueTest, NoImportBeginsWhileScenesTakeTooMuch) {
+  const auto a = add(), b = add();
+  import(queue_.next_to_import(), 100);
+  auto next = next_later();
+  EXPECT_FALSE(goes_on(next));
+  EXPECT_THAT(take(), ElementsAre(a));
+  EXPECT_EQ(next.get(), b);
+  queue_.imported(b, std::nullopt);
+}
+
+TEST_F(WorkQueueTest, WhatIsTriedAloneIsImportedAlone) {
+  const auto running = add();
+  EXPECT_EQ(queue_.next_to_import(), running);
+  const auto alone = add();
+  alone->try_alone();
+  const auto other = add();
+  auto next = next_later();
+  EXPECT_FALSE(goes_on(next)) << "something is imported beside it";
+  queue_.imported(running, std::nullopt);
+  EXPECT_EQ(next.get(), alone);
+  next = next_later();
+  EXPECT_FALSE(goes_on(next)) << "it is imported beside it";
+  queue_.imported(alone, std::nullopt);
+  EXPECT_EQ(next.get(), other);
+  queue_.imported(other, std::nullopt);
+}
+
+TEST_F(WorkQueueTest, ATimingWaitsForImportsAndHoldsUpOthersAlone) {
+  const auto timed = add(true), untimed = add(), running = add(), later = add();
+  for (const auto& job : {timed, untimed, running}) EXPECT_EQ(queue_.next_to_import(), job);
+  import(timed);
+  import(untimed);
+  EXPECT_THAT(take(), ElementsAre(untimed)) << "the device was held for nothing";
+  EXPECT_THAT(take(), IsEmpty());
+  auto next = next_later();
+  EXPECT_FALSE(goes_on(next)) << "an import begins before the timing";
+  import(running);
+  EXPECT_THAT(take(), ElementsAre(timed));
+  EXPECT_FALSE(goes_on(next)) << "an import begins beside the timing";
+  queue_.measured();
+  EXPECT_EQ(next.get(), later);
+  EXPECT_THAT(take(), ElementsAre(running));
+  queue_.imported(later, std::nullopt);
+}
+
+TEST_F(WorkQueueTest, ATimingThatNobodyWaitsForHoldsUpNothing) {
+  const auto timed = add(true), running = add(), later = add();
+  EXPECT_EQ(queue_.next_to_import(), timed);
+  EXPECT_EQ(queue_.next_to_import(), running);
+  import(timed);
+  EXPECT_THAT(take(), IsEmpty());
+  auto next = next_later();
+  EXPECT_FALSE(goes_on(next));
+  timed->cancel();
+  EXPECT_THAT(take(), ElementsAre(timed)) << "to be answered";
+  queue_.measured();
+  EXPECT_EQ(next.get(), later);
+  queue_.imported(running, std::nullopt);
+  queue_.imported(later, std::nullopt);
+}
+
+TEST_F(WorkQueueTest, TheEndRefusesWhatIsThereAndWhatComes) {
+  std::vector<std::shared_ptr<Job>> jobs = {add(), add(), add()};
+  queue_.next_to_import();
+  queue_.next_to_import();
+  import(jobs[0]);
+  Imported late = prepare(jobs[1]);
+  queue_.end();
+  EXPECT_TRUE(queue_.has_ended());
+  EXPECT_TRUE(jobs[1]->is_cancelled()) << "its import goes on";
+  jobs.push_back(add());
+  queue_.imported(jobs[1], std::move(late));
+  EXPECT_EQ(queue_.depth().ready, 1U);
+  for (const auto& job : jobs) EXPECT_EQ(ending(*job), "unavailable: the service is shutting down");
+  EXPECT_EQ(queue_.next_to_import(), nullptr);
+  EXPECT_THAT(take(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace scene_analyzer::service
