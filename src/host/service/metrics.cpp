@@ -1,17 +1,16 @@
 #include "service/metrics.h"
 
 #include <fmt/format.h>
+#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
-#include <prometheus/exposer.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 
-#include <exception>
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
 #include "base/version.h"
+#include "service/metrics_server.h"
 
 namespace scene_analyzer::service {
 namespace {
@@ -90,7 +89,6 @@ struct Metrics::Families {
       counter(*registry, "scene_analyzer_device_losses_total", "Devices that were lost");
   prometheus::Counter& upload_bytes =
       counter(*registry, "scene_analyzer_upload_bytes_total", "Bytes that clients have sent as files");
-  std::unique_ptr<prometheus::Exposer> exposer;
 
   Families() {
     prometheus::BuildGauge()
@@ -111,18 +109,13 @@ Metrics::Metrics(std::function<Levels()> levels)
 Metrics::~Metrics() = default;
 
 int Metrics::listen(const std::string& address) {
-  try {
-    families_->exposer = std::make_unique<prometheus::Exposer>(address);
-  } catch (const std::exception& error) {
-    throw UsageError(fmt::format("--metrics-listen: nobody can listen at '{}': {}", address, error.what()));
-  }
-  families_->exposer->RegisterCollectable(families_->registry);
-  families_->exposer->RegisterCollectable(levels_);
-  return families_->exposer->GetListeningPorts().front();
+  server_ = std::make_unique<MetricsServer>(
+      address, std::vector<std::shared_ptr<prometheus::Collectable>>{families_->registry, levels_});
+  return server_->port();
 }
 
 void Metrics::stop_listening() {
-  families_->exposer.reset();
+  server_.reset();
 }
 
 void Metrics::count_request(const char* method, const char* code, double seconds) {

@@ -19,6 +19,8 @@ struct Levels {
   std::uint64_t stored_analyses = 0, stored_bytes = 0;
 };
 
+class MetricsServer;
+
 // All members may be called by any thread.
 class Metrics {
  public:
@@ -48,6 +50,7 @@ class Metrics {
   class LevelCollector;
   const std::unique_ptr<Families> families_;
   const std::shared_ptr<LevelCollector> levels_;
+  std::unique_ptr<MetricsServer> server_;
 };
 
 }  // namespace scene_analyzer::service
