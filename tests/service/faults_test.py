@@ -106,6 +106,7 @@ class Requests(Case):
 
     def test_wrong_parameters_are_refused_before_anything_is_sent(self):
         for text, measuring in (("did you mean", pb.MeasuringParameters(metrics=["planar_group_variatoin"])),
+                                ("a name of 3000000 bytes", pb.MeasuringParameters(metrics=["x" * 3_000_000])),
                                 ("measuring.alpha_degrees: -1", pb.MeasuringParameters(alpha_degrees=-1)),
                                 ("measuring.alpha_degrees: nan", pb.MeasuringParameters(alpha_degrees=float("nan"))),
                                 ("measuring.dim: 1", pb.MeasuringParameters(dim=1)),

@@ -23,6 +23,7 @@ using service::Reason;
 using service::Refusal;
 
 constexpr std::uint32_t kMostPixels = 16384;                    // a side
+constexpr std::size_t kLongestName = 64;                        // that is compared with those we know
 constexpr std::uint32_t kLeastWidth = 240, kLeastHeight = 120;  // below it no legend can be read
 constexpr std::array<std::string_view, 4> kMapNames = {"thesis", "viridis", "cividis", "coolwarm"};
 
@@ -34,6 +35,8 @@ T in_range(const char* field, T value, T least, T greatest) {
 
 [[noreturn]] void refuse_name(const char* field, const std::string& text,
                               const std::vector<std::string>& known) {
+  if (text.size() > kLongestName)
+    throw Refusal(Reason::kInvalid, fmt::format("{}: a name of {} bytes is unknown", field, text.size()));
   const std::string meant = nearest(text, known);
   throw Refusal(Reason::kInvalid, fmt::format("{}: '{}' is unknown{}", field, text,
                                               meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
