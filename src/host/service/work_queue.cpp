@@ -141,7 +141,7 @@ std::vector<Imported> WorkQueue::take_pack(std::size_t pending) {
   return pack;
 }
 
-std::vector<Imported> WorkQueue::take(std::deque<Imported>::iterator first) {
+std::vector<Imported> WorkQueue::take(const std::deque<Imported>::iterator& first) {
   std::vector<Imported> pack;
   std::uint64_t triangles = 0;
   const auto move = [&](const std::deque<Imported>::iterator& one) {

@@ -63,7 +63,7 @@ class WorkQueue {
 
  private:
   std::deque<Imported>::iterator next_ready();
-  std::vector<Imported> take(std::deque<Imported>::iterator first);
+  std::vector<Imported> take(const std::deque<Imported>::iterator& first);
 
   const std::uint64_t most_bytes_;
   mutable std::mutex mutex_;
