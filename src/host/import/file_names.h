@@ -12,7 +12,7 @@ inline constexpr const char* kFileNames = "names";
 
 // Throws std::system_error, also when there is such a file already.
 void write_file_names(const std::filesystem::path& folder, const mesh::FileNames& names);
-// Throws std::system_error.
+// At least one. Throws std::system_error, and InputError when it is no whole table of names.
 mesh::FileNames read_file_names(const std::filesystem::path& folder);
 
 }  // namespace scene_analyzer::import
