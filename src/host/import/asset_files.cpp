@@ -87,9 +87,13 @@ AssetFiles::AssetFiles(std::string asset_path, const mesh::FileNames& names)
 }
 
 std::string AssetFiles::path_of(const std::string& name) const {
-  if (!paths_) return is_file(name) ? name : std::string();
-  const auto entry = paths_->find(name);
-  return entry == paths_->end() ? std::string() : entry->second;
+  std::string path = name;
+  if (paths_) {
+    const auto entry = paths_->find(name);
+    if (entry == paths_->end()) return {};
+    path = entry->second;
+  }
+  return is_file(path) ? path : std::string();
 }
 
 AssetFiles::Found AssetFiles::look_up(std::string_view text) const {
