@@ -82,6 +82,7 @@ TEST_F(NamedFilesTest, WhatLeadsOutIsRefused) {
                                         "%2Fetc/passwd",
                                         "..%2fa.bin",
                                         "\\\\server\\share",
+                                        "/asset/a.bin",
                                         (folder_.path() / "1").string()};
   for (const std::string& text : out) {
     const AssetFiles::Found found = named.find(text);
@@ -114,6 +115,12 @@ TEST_F(NamedFilesTest, EscapesAreDecodedWhereTheNameItselfIsNotThere) {
   EXPECT_EQ(named.find("100%.png").path, "4");
   EXPECT_EQ(named.find("100%25.png").path, "4");
   EXPECT_EQ(named.find("wood%2520grain.png").path, "") << "once only";
+  EXPECT_EQ(named.find("gone%20.mtl").path, "");
+  EXPECT_THAT(recorded(named),
+              ElementsAre("room.gltf", "wood grain.png", "a%20b.png", "a b.png", "100%.png",
+                          "no wood%2520grain.png", "no wood%20grain.png", "no gone%20.mtl", "no gone .mtl"))
+      << "a missing one under each name that it would be found by";
+  EXPECT_THAT(named.missing_with_extension(".mtl"), ElementsAre("gone%20.mtl"));
 }
 
 TEST_F(NamedFilesTest, GuessesCountWhereThereIsSuchAFile) {

@@ -115,6 +115,16 @@ TEST(ImportFiles, AMissingMaterialFileIsAWarning) {
   EXPECT_TRUE(has_file(scene, "none.mtl", false));
 }
 
+// Its coming under either name has to be noticed, or the warning would stay.
+TEST(ImportFiles, AMissingFileWithEscapesIsListedUnderBothNames) {
+  const TempFolder folder;
+  const mesh::Scene scene =
+      import_asset(folder.write("a.obj", std::string("mtllib my%20own.mtl\n") + kTriangle));
+  EXPECT_THAT(scene.warnings, testing::ElementsAre("material file \"my%20own.mtl\" is missing"));
+  EXPECT_TRUE(has_file(scene, "my%20own.mtl", false));
+  EXPECT_TRUE(has_file(scene, "my own.mtl", false));
+}
+
 TEST(ImportFiles, MaterialsAndTexturesAreListed) {
   const TempFolder folder;
   folder.write("sub/a.mtl",

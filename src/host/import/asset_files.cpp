@@ -125,7 +125,7 @@ AssetFiles::Found AssetFiles::find(std::string_view text) {
   if (found.kind != Reference::Kind::kInside)
     refused_.emplace(text);
   else if (found.path.empty())
-    record(resolve_reference(folder_, text).path, false);
+    record_missing(text);
   else
     record(found.name, true);
   return found;
@@ -142,6 +142,16 @@ void AssetFiles::record(const std::string& name, bool found) {
   if (is_new) files_.push_back({name, found});
 }
 
+// Under every name that it would have been found by, so that its coming is noticed.
+void AssetFiles::record_missing(std::string_view text) {
+  const std::string name = resolve_reference(folder_, text).path;
+  record(name, false);
+  const std::string decoded = resolve_reference(folder_, decode_percent(text)).path;
+  if (decoded == name) return;
+  record(decoded, false);
+  decoded_.insert(decoded);
+}
+
 bool AssetFiles::readable(const std::string& path) {
   return !path.empty() && ::access(path.c_str(), R_OK) == 0;
 }
@@ -149,7 +159,8 @@ bool AssetFiles::readable(const std::string& path) {
 std::vector<std::string> AssetFiles::missing_with_extension(std::string_view extension) const {
   std::vector<std::string> missing;
   for (const mesh::ReferencedFile& file : files_)
-    if (!file.found && file.path.ends_with(extension)) missing.push_back(file.path);
+    if (!file.found && file.path.ends_with(extension) && !decoded_.contains(file.path))
+      missing.push_back(file.path);
   return missing;
 }
 

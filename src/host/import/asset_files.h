@@ -65,6 +65,7 @@ class AssetFiles {
   const std::set<std::string>& refused() const {
     return refused_;
   }  // references leading elsewhere, as written
+  // As the asset names them, escapes and all.
   std::vector<std::string> missing_with_extension(std::string_view extension) const;
 
  private:
@@ -72,6 +73,7 @@ class AssetFiles {
   Found look_up_name(std::string_view reference) const;  // without regard to links
   std::string path_of(const std::string& name) const;    // empty when there is no such regular file
   void record(const std::string& name, bool found);
+  void record_missing(std::string_view reference);
 
   std::string asset_, asset_path_;
   std::filesystem::path folder_;
@@ -79,6 +81,7 @@ class AssetFiles {
   std::vector<mesh::ReferencedFile> files_;
   std::unordered_map<std::string, std::size_t> position_;
   std::set<std::string> refused_;
+  std::set<std::string> decoded_;  // other names of missing files, which nobody wrote
 };
 
 }  // namespace scene_analyzer::import
