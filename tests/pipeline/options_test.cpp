@@ -121,9 +121,10 @@ TEST_F(OptionsTest, APackMayMixThem) {
   }
 }
 
-TEST_F(OptionsTest, TheFirstOfAPackMayBeTheOneThatDiffers) {
+TEST_F(OptionsTest, TheFirstOfAPackMayBeThoseThatDiffer) {
   const auto own = differing().front();
-  const std::vector<Given> assets = {{asset(3), own}, {asset(4), nullptr}, {asset(5), nullptr}};
+  const std::vector<Given> assets = {
+      {asset(3), own}, {asset(4), own}, {asset(5), nullptr}, {asset(6), nullptr}};
   const std::vector<Outcome> outcomes = analyze_together(assets);
   for (std::size_t i = 0; i < assets.size(); ++i)
     EXPECT_TRUE(bytes_of(outcomes.at(i)) == bytes_of(alone(assets[i]))) << i;
