@@ -14,7 +14,7 @@ add_custom_command(
   COMMENT "Python stubs of the service"
   VERBATIM)
 add_custom_target(service_stubs ALL DEPENDS ${stubs}/made)
-foreach(name answers security faults)
+foreach(name answers security faults limits)
   string(SUBSTRING ${name} 0 1 first)
   string(TOUPPER ${first} first)
   string(SUBSTRING ${name} 1 -1 rest)
