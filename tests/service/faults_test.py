@@ -168,10 +168,11 @@ class End(Case):
         with Service() as service:
             watch = health_pb2_grpc.HealthStub(service.channel()).Watch(health_pb2.HealthCheckRequest())
             self.assertEqual(next(watch).status, health_pb2.HealthCheckResponse.SERVING)
-            stub = service.stub()
-            calls = [stub.Analyze(parts_of(pb.AnalyzeRequest, {f"large-{i}.obj": obj(200 + i, 200)},
-                                           pb.AnalyzeParameters())) for i in range(4)]
+            stub, go_on = service.stub(), threading.Event()
+            calls = [stub.Analyze(held_back(parts_of(pb.AnalyzeRequest, {f"large-{i}.obj": obj(200 + i, 200)},
+                                                     pb.AnalyzeParameters()), go_on)) for i in range(4)]
             wait_until(lambda: service.metric("scene_analyzer_requests_admitted") == 4, "all are taken")
+            go_on.set()
             service.process.send_signal(signal.SIGTERM)
             self.assertEqual(next(watch).status, health_pb2.HealthCheckResponse.NOT_SERVING)
             wait_until(lambda: "no more requests" in service.log(), "health comes first")

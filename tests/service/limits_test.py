@@ -194,16 +194,9 @@ class Draining(Case):
             stub = service.stub()
             key = analyze(stub, {"a.obj": obj()}).analysis.content_key
             self.assertEqual(stub.GetAnalysis(pb.GetAnalysisRequest(content_key=key)).analysis.content_key, key)
-            taken, go_on = threading.Event(), threading.Event()
-
-            def slow():
-                parts = list(parts_of(pb.AnalyzeRequest, {"slow.obj": obj(9, 9)}, pb.AnalyzeParameters()))
-                yield from parts[:-1]
-                taken.set()
-                go_on.wait(PATIENCE)
-                yield parts[-1]
-            call = stub.Analyze(slow())
-            taken.wait(PATIENCE)
+            go_on = threading.Event()
+            call = stub.Analyze(held_back(parts_of(pb.AnalyzeRequest, {"slow.obj": obj(9, 9)}, pb.AnalyzeParameters()),
+                                          go_on))
             wait_until(lambda: service.metric("scene_analyzer_requests_admitted") == 1, "it is taken")
             service.process.terminate()
             wait_until(lambda: "no more requests" in service.log(), "the signal is understood")

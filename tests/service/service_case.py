@@ -28,6 +28,14 @@ def parallel(count, work):
     return results
 
 
+def held_back(parts, go_on):
+    """The parts of a request, the last of them when `go_on` is set."""
+    *others, last = parts
+    yield from others
+    go_on.wait(PATIENCE)
+    yield last
+
+
 def pushback(error):
     return {one.key: one.value for one in error.trailing_metadata()}.get("grpc-retry-pushback-ms")
 
