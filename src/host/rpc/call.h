@@ -10,7 +10,7 @@
 
 namespace scene_analyzer::rpc {
 
-// Says gRPC of a message that is no message, or of the wrong kind.
+// What is said of a message that is none, or of another kind.
 inline constexpr const char* kCannotBeParsed =
     "a message cannot be parsed; are its names UTF-8, and is the .proto the same?";
 
