@@ -28,10 +28,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-gpu::Device& no_device() {
-  throw std::logic_error("the device was asked for");
-}
-
 // Answers what it is told to, and remembers what it was asked and told.
 class RecordingStore final : public AnalysisStore {
  public:

@@ -1,6 +1,7 @@
 // strip.h — What tests of the pipeline measure, and what they measure it on.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "gpu/device.h"
@@ -10,6 +11,9 @@ namespace scene_analyzer::pipeline {
 inline gpu::Device& shared_device() {
   static gpu::Device device;
   return device;
+}
+inline gpu::Device& no_device() {
+  throw std::logic_error("the device was asked for");
 }
 
 // A strip of `count` quads of many sizes, the last of them folded and with a fin on its edge, and where asked
