@@ -16,7 +16,7 @@ constexpr int kTriedOften = 2;
 constexpr std::size_t kMostAssets = 1000;
 
 std::pair<std::uint64_t, std::uint64_t> contents_of(const mesh::AssetSource& asset) {
-  const auto& hash = analysis_file::fingerprint(asset, {}).front().hash;
+  const auto hash = analysis_file::fingerprint(asset, {}).front().hash;
   return {hash[0], hash[1]};
 }
 
