@@ -1,9 +1,10 @@
 test_binary(cli
   SOURCES option_parsing_test.cpp analyze_options_test.cpp interrupt_test.cpp messages_test.cpp
           selftest_test.cpp
-          run_program.cpp analyze_test.cpp defects_test.cpp histograms_test.cpp signals_test.cpp picture_options_test.cpp pictures_test.cpp
+          run_program.cpp analyze_test.cpp defects_test.cpp histograms_test.cpp signals_test.cpp pictures_test.cpp
           bad_input_test.cpp batch_test.cpp check_test.cpp library_progress_test.cpp
           commands_test.cpp device_limit_test.cpp export_test.cpp
+  ALONE picture_options_test.cpp
   LINK cli reference test_meshes nlohmann_json::nlohmann_json PkgConfig::cairo util)
 # The layer is opened by Vulkan's loader, which finds it through the manifest.
 set(test_layers ${CMAKE_BINARY_DIR}/test-layers)

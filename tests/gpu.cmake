@@ -1,6 +1,7 @@
 test_binary(gpu
   SOURCES buffer_test.cpp device_selection_test.cpp device_test.cpp drawing_test.cpp host_memory_test.cpp kernel_test.cpp
-          pipeline_cache_test.cpp raster_state_test.cpp recorder_test.cpp reflection_test.cpp validation_test.cpp
+          pipeline_cache_test.cpp recorder_test.cpp reflection_test.cpp validation_test.cpp
+  ALONE raster_state_test.cpp
   LINK gpu Vulkan::Headers spdlog::spdlog
   LABELS gpu)
 add_shaders(gpu_test

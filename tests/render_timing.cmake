@@ -1,4 +1,5 @@
 test_binary(render_timing
-  SOURCES estimate_test.cpp framing_test.cpp render_timer_test.cpp
+  SOURCES estimate_test.cpp render_timer_test.cpp
+  ALONE framing_test.cpp
   LINK render_timing test_meshes
   LABELS gpu)

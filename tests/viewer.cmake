@@ -1,7 +1,8 @@
 test_binary(viewer
   SOURCES ../support/worker_main.cpp frame_times_test.cpp navigation_test.cpp ratings_file_test.cpp
           review_job_test.cpp review_keys_test.cpp review_state_test.cpp reviewed_asset_test.cpp
-          reviewed_scene_test.cpp signal_job_test.cpp
+          reviewed_scene_test.cpp
+  ALONE signal_job_test.cpp
   LINK viewer nlohmann_json::nlohmann_json
   LABELS gpu)
 # Real keys and a real mouse on a virtual display. Libraries of displays keep memory that leak checks would complain of.

@@ -95,8 +95,7 @@ TEST(SignalSvg, TakesSignalsOfAllKinds) {
   odd.geometry.signal.reset();
   odd.geometry.fourier_transform.reset();
   EXPECT_THAT(odd.svg(), Not(HasSubstr("R_ft")));
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const double scale : {0.0, 1e-320, 1e308, kInfinity}) {
+  for (const double scale : {0.0, 1e-320, 1e308, std::numeric_limits<double>::infinity()}) {
     const std::string svg = sample(8).svg(scale);
     EXPECT_TRUE(is_xml(svg)) << scale;
     EXPECT_THAT(svg.substr(svg.find("<path")), Not(AnyOf(HasSubstr("Vnan"), HasSubstr("Vinf")))) << scale;

@@ -147,11 +147,11 @@ class Words {
 
   // Nothing at the end.
   std::optional<std::string_view> next() {
-    constexpr std::string_view kSpace = " \t\r\n";
-    const std::size_t first = left_.find_first_not_of(kSpace);
+    constexpr std::string_view kBetweenWords = " \t\r\n";
+    const std::size_t first = left_.find_first_not_of(kBetweenWords);
     if (first == std::string_view::npos) return std::nullopt;
     left_.remove_prefix(first);
-    const std::string_view word = left_.substr(0, left_.find_first_of(kSpace));
+    const std::string_view word = left_.substr(0, left_.find_first_of(kBetweenWords));
     left_.remove_prefix(word.size());
     return word;
   }

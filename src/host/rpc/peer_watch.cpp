@@ -3,7 +3,7 @@
 namespace scene_analyzer::rpc {
 namespace {
 
-constexpr std::size_t kLeastSpeed = 64 << 10;  // bytes per second
+constexpr std::size_t kLeastReadingSpeed = 64 << 10;  // bytes per second
 
 }  // namespace
 
@@ -21,7 +21,7 @@ PeerWatch::Wait::Wait(PeerWatch& watch, grpc::ServerContext& context, std::size_
     : watch_(watch),
       context_(context),
       deadline_(std::chrono::steady_clock::now() + watch.patience_ +
-                std::chrono::seconds(bytes / kLeastSpeed)) {
+                std::chrono::seconds(bytes / kLeastReadingSpeed)) {
   const std::lock_guard lock(watch_.mutex_);
   place_ = watch_.waiting_.insert(watch_.waiting_.end(), this);
 }

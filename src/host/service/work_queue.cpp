@@ -15,7 +15,7 @@ constexpr std::size_t kMostTogether = 64;
 constexpr std::uint64_t kMostTriangles = 500'000;
 // Packs whose start triangles are searched at the same time. Each has threads on all processors.
 constexpr std::size_t kMostPending = 4;
-constexpr auto kLongestWait = 25ms;  // for more of it, while there are imports
+constexpr auto kLongestGathering = 25ms;  // for more of it, while there are imports
 constexpr auto kBetweenLooks = 2ms;  // at searches, and at whether somebody waits for a timing
 
 bool goes_alone(const Imported& one) {
@@ -131,7 +131,7 @@ std::vector<Imported> WorkQueue::take_pack(std::size_t pending) {
       const bool more_comes = !importing_.empty() || (!waiting_.empty() && !quiet_is_wanted_);
       return ended_ || ready_.size() >= kMostTogether || !more_comes;
     };
-    changed_.wait_for(lock, kLongestWait, is_enough);
+    changed_.wait_for(lock, kLongestGathering, is_enough);
     if (ended_) return {};
     next = next_ready();
   }

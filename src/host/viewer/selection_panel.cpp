@@ -84,9 +84,9 @@ void draw_brackets(const analysis::Bounds& box, const scene_render::Camera& came
     low = {std::min(low.x, x), std::min(low.y, y)};
     high = {std::max(high.x, x), std::max(high.y, y)};
   }
-  constexpr float kMargin = 4, kLeast = 6, kThickness = 2;
-  low = {low.x - kMargin, low.y - kMargin};
-  high = {high.x + kMargin, high.y + kMargin};
+  constexpr float kGap = 4, kLeast = 6, kThickness = 2;
+  low = {low.x - kGap, low.y - kGap};
+  high = {high.x + kGap, high.y + kGap};
   const float arm = std::max(kLeast, std::min(high.x - low.x, high.y - low.y) / 4);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const bool right : {false, true})
