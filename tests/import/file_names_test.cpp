@@ -123,6 +123,13 @@ TEST_F(NamedFilesTest, EscapesAreDecodedWhereTheNameItselfIsNotThere) {
   EXPECT_THAT(named.missing_with_extension(".mtl"), ElementsAre("gone%20.mtl"));
 }
 
+TEST_F(NamedFilesTest, NoFileIsCalledAsANameWithANul) {
+  AssetFiles named = files({"room.gltf", "a"});
+  EXPECT_EQ(named.find("a%00.png").path, "");
+  EXPECT_EQ(named.find(std::string_view("a\0b", 3)).path, "");
+  EXPECT_THAT(recorded(named), ElementsAre("room.gltf", "no a%00.png"));
+}
+
 TEST_F(NamedFilesTest, GuessesCountWhereThereIsSuchAFile) {
   AssetFiles named = files({"room.obj", "room.mtl"});
   EXPECT_EQ(named.find_guess("0.mtl").path, "");

@@ -125,6 +125,16 @@ TEST(ImportFiles, AMissingFileWithEscapesIsListedUnderBothNames) {
   EXPECT_TRUE(has_file(scene, "my own.mtl", false));
 }
 
+// To the system "a" is what stands before the NUL.
+TEST(ImportFiles, ANameWithANulIsNoFile) {
+  const TempFolder folder;
+  folder.write("a", "newmtl red\nKd 1 0 0\n");
+  const mesh::Scene scene = import_asset(folder.write("b.obj", std::string("mtllib a%00.mtl\n") + kTriangle));
+  EXPECT_THAT(scene.warnings, testing::ElementsAre("material file \"a%00.mtl\" is missing"));
+  EXPECT_TRUE(has_file(scene, "a%00.mtl", false));
+  EXPECT_EQ(scene.files.size(), 3U) << "itself, b.mtl as a guess, and that name as it is written";
+}
+
 TEST(ImportFiles, MaterialsAndTexturesAreListed) {
   const TempFolder folder;
   folder.write("sub/a.mtl",

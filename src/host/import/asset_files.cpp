@@ -27,9 +27,14 @@ bool has_drive_letter(std::string_view text) {
   return text.size() >= 2 && text[1] == ':' && std::isalpha(static_cast<unsigned char>(text[0]));
 }
 
+// To the system a name ends at its first NUL.
+bool can_be_of_a_file(std::string_view name) {
+  return name.find('\0') == std::string_view::npos;
+}
+
 bool is_file(const std::string& path) {
   std::error_code ignored;  // a name that cannot be looked up is not there
-  return fs::is_regular_file(path, ignored);
+  return can_be_of_a_file(path) && fs::is_regular_file(path, ignored);
 }
 
 // Of a file that is there: whether links on the way to it lead out of `folder`, which is canonical.
@@ -145,9 +150,9 @@ void AssetFiles::record(const std::string& name, bool found) {
 // Under every name that it would have been found by, so that its coming is noticed.
 void AssetFiles::record_missing(std::string_view text) {
   const std::string name = resolve_reference(folder_, text).path;
-  record(name, false);
+  if (can_be_of_a_file(name)) record(name, false);
   const std::string decoded = resolve_reference(folder_, decode_percent(text)).path;
-  if (decoded == name) return;
+  if (decoded == name || !can_be_of_a_file(decoded)) return;
   record(decoded, false);
   decoded_.insert(decoded);
 }
