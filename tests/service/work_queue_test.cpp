@@ -1,6 +1,8 @@
 // Which job is imported next, and which go to the device together.
 #include "service/work_queue.h"
 
+#include <atomic>
+
 #include "pipeline/pending_analysis.h"
 #include "service/executor_fixture.h"
 
@@ -11,6 +13,7 @@ using analysis::Metric;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
+using testing::StartsWith;
 
 // Long enough for a thread that may go on to do so; one that does later makes a test pass that should not.
 constexpr std::chrono::milliseconds kAMoment(50);
@@ -94,6 +97,24 @@ TEST_F(WorkQueueTest, WithManyPendingNothingIsTaken) {
   EXPECT_THAT(take(3), ElementsAre(job));
 }
 
+TEST_F(WorkQueueTest, WithManyPendingNothingIsTakenOfWhatComesMeanwhile) {
+  std::vector<std::shared_ptr<Job>> jobs;
+  std::atomic<bool> is_over = false;
+  auto taken = std::async(std::launch::async, [&] {
+    std::size_t sum = 0;
+    while (!is_over) sum += take(4).size();
+    return sum;
+  });
+  for (int i = 0; i < 20; ++i) {
+    jobs.push_back(add());
+    import(queue_.next_to_import());
+  }
+  std::this_thread::sleep_for(kAMoment);
+  is_over = true;
+  EXPECT_EQ(taken.get(), 0U);
+  EXPECT_EQ(take(3), jobs);
+}
+
 TEST_F(WorkQueueTest, NoImportBeginsWhileScenesTakeTooMuch) {
   const auto a = add(), b = add();
   import(queue_.next_to_import(), 100);
@@ -153,6 +174,51 @@ TEST_F(WorkQueueTest, ATimingThatNobodyWaitsForHoldsUpNothing) {
   EXPECT_EQ(next.get(), later);
   queue_.imported(running, std::nullopt);
   queue_.imported(later, std::nullopt);
+}
+
+TEST_F(WorkQueueTest, WhatIsCancelledLeavesAtOnce) {
+  const auto running = add(), ready = add(), waiting = add();
+  EXPECT_EQ(queue_.next_to_import(), running);
+  EXPECT_EQ(queue_.next_to_import(), ready);
+  import(ready, 100);
+  auto next = next_later();
+  EXPECT_FALSE(goes_on(next)) << "there is no room for more";
+  queue_.cancel(waiting);
+  EXPECT_THAT(ending(*waiting), StartsWith("cancelled: "));
+  EXPECT_EQ(queue_.depth().waiting, 0U);
+  const auto later = add();
+  EXPECT_FALSE(goes_on(next));
+  queue_.cancel(ready);
+  EXPECT_THAT(ending(*ready), StartsWith("cancelled: "));
+  EXPECT_EQ(queue_.depth().ready, 0U);
+  EXPECT_EQ(next.get(), later) << "its memory is free again";
+  Imported imported = prepare(running);
+  queue_.cancel(running);
+  EXPECT_FALSE(running->is_done()) << "its import has to end first";
+  queue_.imported(running, std::move(imported));
+  EXPECT_THAT(ending(*running), StartsWith("cancelled: "));
+  EXPECT_EQ(queue_.depth().ready, 0U);
+  queue_.imported(later, std::nullopt);
+  queue_.cancel(later);  // it is nowhere
+  queue_.add(later, true);
+  EXPECT_THAT(ending(*later), StartsWith("cancelled: "));
+  EXPECT_EQ(queue_.depth().waiting, 0U);
+}
+
+TEST_F(WorkQueueTest, TheLastOfWhatIsGatheredMayBeCancelled) {
+  const auto running = add();  // so that more is waited for
+  EXPECT_EQ(queue_.next_to_import(), running);
+  for (int i = 0; i < 20; ++i) {
+    const auto job = add();
+    EXPECT_EQ(queue_.next_to_import(), job);
+    import(job);
+    auto taken = std::async(std::launch::async, [this] { return take(1); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * i));  // at another moment each time
+    queue_.cancel(job);
+    EXPECT_THAT(taken.get(), testing::AnyOf(IsEmpty(), ElementsAre(job)));
+    EXPECT_EQ(queue_.depth().ready, 0U);
+  }
+  queue_.imported(running, std::nullopt);
 }
 
 TEST_F(WorkQueueTest, TheEndRefusesWhatIsThereAndWhatComes) {

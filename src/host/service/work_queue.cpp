@@ -1,5 +1,6 @@
 #include "service/work_queue.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -16,7 +17,7 @@ constexpr std::uint64_t kMostTriangles = 500'000;
 // Packs whose start triangles are searched at the same time. Each has threads on all processors.
 constexpr std::size_t kMostPending = 4;
 constexpr auto kLongestGathering = 25ms;  // for more of it, while there are imports
-constexpr auto kBetweenLooks = 2ms;  // at searches, and at whether somebody waits for a timing
+constexpr auto kBetweenLooks = 2ms;       // at searches, and at whether somebody waits for a timing
 
 bool goes_alone(const Imported& one) {
   return one.job->is_alone() || one.job->order().picture || wants_times(*one.job);
@@ -37,6 +38,7 @@ void WorkQueue::add(std::shared_ptr<Job> job, bool first) {
   {
     const std::lock_guard lock(mutex_);
     if (ended_) return job->refuse(Reason::kUnavailable, kShuttingDown);
+    if (job->is_cancelled()) return job->refuse(Reason::kCancelled, GivenUp().what());
     waiting_.insert(first ? waiting_.begin() : waiting_.end(), std::move(job));
   }
   changed_.notify_all();
@@ -47,6 +49,24 @@ void WorkQueue::release(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     held_bytes_ -= bytes;
   }
+  changed_.notify_all();
+}
+
+void WorkQueue::cancel(const std::shared_ptr<Job>& job) {
+  job->cancel();
+  std::optional<Imported> dropped;  // its memory is given back after the lock
+  {
+    const std::lock_guard lock(mutex_);
+    const auto ready = std::ranges::find(ready_, job, &Imported::job);
+    if (ready != ready_.end()) {
+      dropped = std::move(*ready);
+      ready_.erase(ready);
+      held_bytes_ -= dropped->bytes;
+    } else if (std::erase(waiting_, job) == 0) {
+      return;
+    }
+  }
+  job->refuse(Reason::kCancelled, GivenUp().what());
   changed_.notify_all();
 }
 
@@ -97,7 +117,9 @@ void WorkQueue::imported(const std::shared_ptr<Job>& job, std::optional<Imported
     const std::lock_guard lock(mutex_);
     importing_.erase(job);
     import_is_alone_ = false;  // nothing else is under way where it was
-    if (result && !ended_) {   // else it was refused by end()
+    if (result && job->is_cancelled()) {
+      job->refuse(Reason::kCancelled, GivenUp().what());
+    } else if (result && !ended_) {  // else it was refused by end()
       held_bytes_ += result->bytes;
       ready_.push_back(std::move(*result));
     }
@@ -119,7 +141,7 @@ std::vector<Imported> WorkQueue::take_pack(std::size_t pending) {
   std::unique_lock lock(mutex_);
   auto next = ready_.end();
   const auto is_awake = [&] {
-    if (pending < kMostPending) next = next_ready();
+    next = pending < kMostPending ? next_ready() : ready_.end();
     return ended_ || next != ready_.end();
   };
   if (pending == 0 && ready_.empty()) changed_.wait(lock, [&] { return is_awake() || !ready_.empty(); });
@@ -134,6 +156,7 @@ std::vector<Imported> WorkQueue::take_pack(std::size_t pending) {
     changed_.wait_for(lock, kLongestGathering, is_enough);
     if (ended_) return {};
     next = next_ready();
+    if (next == ready_.end()) return {};  // it was cancelled
   }
   std::vector<Imported> pack = take(next);
   lock.unlock();

@@ -38,6 +38,8 @@ class WorkQueue {
   // At the end, or as the first.
   void add(std::shared_ptr<Job> job, bool first = false);
   void release(std::uint64_t bytes);
+  // Nobody waits for it any more: it is refused at once if it waits or is ready, else at its next step.
+  void cancel(const std::shared_ptr<Job>& job);
   // Refuses what waits, is imported or is ready, and whatever is added from now on.
   void end();
   bool has_ended() const;
