@@ -1,6 +1,12 @@
 // Jobs that nobody waits for, devices that fail, and an executor that ends before its jobs.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <fstream>
 #include <future>
+#include <system_error>
 
 #include "gpu/error.h"
 #include "service/executor_fixture.h"
@@ -10,6 +16,7 @@ namespace {
 
 using analysis::Metric;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -153,6 +160,55 @@ TEST_F(ExecutorTest, AnAssetThatTheDeviceIsLostWithIsTriedTwice) {
   EXPECT_EQ(asked, 2);
   is_lost = false;
   EXPECT_EQ(ending(*executor->submit(order(write(test_meshes::heightfield(3, 1, 1), "hills.obj")))), "");
+}
+
+// Pictures are drawn one by one; all of them are imported before the first is.
+TEST_F(ExecutorTest, ManyOfOneAssetThatTheDeviceIsLostWithLoseItTwice) {
+  Gate begun;
+  std::atomic<int> asked = 0;
+  const auto executor = this->executor({.import_workers = 2}, [&]() -> gpu::Device& {
+    if (++asked == 1) begun.wait();
+    throw gpu::DeviceLost("The device was lost.");
+  });
+  Order drawn = order(cube_);
+  drawn.picture = picture_order(64, 64);
+  std::vector<std::shared_ptr<Job>> jobs = {executor->submit(drawn)};
+  ASSERT_TRUE(comes_true([&] { return asked == 1; }));
+  for (int i = 0; i < 4; ++i) jobs.push_back(executor->submit(drawn));
+  ASSERT_TRUE(comes_true([&] { return executor->depth().ready == 4; }));
+  begun.open();
+  std::vector<std::string> endings;
+  for (const auto& job : jobs) endings.push_back(ending(*job));
+  EXPECT_THAT(endings.front(), StartsWith("unavailable: "));
+  EXPECT_THAT(endings, Contains(StartsWith("unavailable: ")).Times(2));
+  EXPECT_THAT(endings, Contains(StartsWith("too_large: ")).Times(3));
+  EXPECT_EQ(asked, 2);
+}
+
+// Each thread's stack takes 8 MiB of addresses.
+TEST_F(ExecutorTest, ThreadsThatTheSystemDoesNotStartAreAnError) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer has reserved more addresses than could be allowed";
+#endif
+  const int child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::ifstream statm("/proc/self/statm");
+    rlim_t pages = 0;
+    statm >> pages;
+    const rlim_t most = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (256U << 20);
+    const rlimit limit{most, most};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) ::_exit(3);
+    try {
+      executor({.import_workers = 1024});
+      ::_exit(4);
+    } catch (const std::system_error&) {
+      ::_exit(0);
+    }
+  }
+  int status = 0;
+  ASSERT_TRUE(comes_true([&] { return ::waitpid(child, &status, WNOHANG) == child; })) << "it hangs";
+  EXPECT_EQ(status, 0);
 }
 
 // The imports that are under way would take for ever: they have to be ended too.

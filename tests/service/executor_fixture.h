@@ -63,6 +63,13 @@ inline std::string ending(Job& job) {
   return ending(job, answer);
 }
 
+inline PictureOrder picture_order(std::uint32_t width, std::uint32_t height) {
+  PictureOrder picture;
+  picture.format.width = width;
+  picture.format.height = height;
+  return picture;
+}
+
 // See tests/support/worker_main.cpp. Begins and ends while nothing is being imported.
 class Misbehaviour {
  public:

@@ -19,13 +19,6 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::StartsWith;
 
-PictureOrder picture_order(std::uint32_t width, std::uint32_t height) {
-  PictureOrder picture;
-  picture.format.width = width;
-  picture.format.height = height;
-  return picture;
-}
-
 TEST_F(ExecutorTest, AJobHasWhatThePipelineGives) {
   const mesh::AssetSource asset = write(test_meshes::heightfield(12, 0.5, 3), "hills.obj");
   const pipeline::Outcome expected = alone(asset, options_);
@@ -219,6 +212,23 @@ TEST_F(ExecutorPictureTest, IsDrawnOfWhatTheStoreKnows) {
   EXPECT_FALSE(first.from_store);
   EXPECT_TRUE(second.from_store);
   EXPECT_TRUE(first.png == second.png);
+}
+
+// The analysis is there, so that only the textures are imported.
+TEST_F(ExecutorPictureTest, WhatTakesTooLongAlsoAloneIsTooLarge) {
+  options_.use_analysis_files = true;
+  options_.cache_folder = folder_.path() / "cache";
+  const PictureOrder picture = picture_order(64, 64);
+  const auto executor = this->executor();
+  ASSERT_EQ(ending(*executor->submit(order(cube_))), "");
+  {
+    const Misbehaviour misbehaviour("hang");
+    Order slow = picture_of(cube_, picture);
+    slow.options.import_limits.seconds = 0.2;
+    EXPECT_THAT(ending(*executor->submit(std::move(slow))),
+                AllOf(StartsWith("too_large: "), HasSubstr("0.2 s")));
+  }
+  EXPECT_EQ(ending(*executor->submit(picture_of(cube_, picture))), "");
 }
 
 TEST_F(ExecutorPictureTest, OfNothingIsRefused) {

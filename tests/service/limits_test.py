@@ -62,6 +62,21 @@ class Sizes(Case):
             self.assertIn("render_timings", error.details())
             self.assert_works(service)
 
+    def test_messages_beyond_their_size(self):
+        with Service() as service:
+            large = pb.RateRequest()
+            large.assets.add().content_key = "0" * (33 << 20)
+            error = self.assert_fails(Code.RESOURCE_EXHAUSTED, lambda: service.stub().Rate(large))
+            self.assertIn("content keys in place of analyses", error.details())
+            self.assertEqual(pushback(error), "-1")
+            data = pb.AnalyzeRequest(data=b"#" * (33 << 20))
+            parameters = pb.AnalyzeRequest(parameters=pb.AnalyzeParameters())
+            error = self.assert_fails(Code.RESOURCE_EXHAUSTED,
+                                      lambda: list(service.stub().Analyze(iter([parameters, data]))))
+            self.assertIn("at most 4 MiB", error.details())
+            self.assertEqual(pushback(error), "-1")
+            self.assert_works(service)
+
     def test_limits_themselves_are_accepted(self):
         file = obj(3, 2)  # 12 triangles
         file += b"#" * ((1 << 20) - len(file))

@@ -99,6 +99,15 @@ constexpr std::size_t kLongestMessage = 2000;
 
 }  // namespace
 
+void check_size(std::size_t message_bytes) {
+  if (message_bytes > kMostMessageBytes)
+    throw Refusal(
+        Reason::kTooLarge,
+        fmt::format("a message has {} bytes, more than {}; send files in pieces of at most 4 MiB, and "
+                    "content keys in place of analyses",
+                    message_bytes, kMostMessageBytes));
+}
+
 Call::Call(Backend& backend, const char* method, grpc::ServerContext& context)
     : backend_(backend), context_(context) {
   record_.method = method;

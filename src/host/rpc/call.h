@@ -3,6 +3,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -13,6 +14,11 @@ namespace scene_analyzer::rpc {
 // What is said of a message that is none, or of another kind.
 inline constexpr const char* kCannotBeParsed =
     "a message cannot be parsed; are its names UTF-8, and is the .proto the same?";
+
+// Data of files come in messages of at most 4 MiB; analyses for Rate may be larger.
+inline constexpr std::size_t kMostMessageBytes = 32 << 20;
+// Throws service::Refusal for a message beyond it.
+void check_size(std::size_t message_bytes);
 
 class Call {
  public:

@@ -16,13 +16,15 @@ constexpr auto kBetweenLooks = 20ms;  // at whether the client still waits
 // Whoever leaves before the answer is there waits no more.
 class Cancelling {
  public:
-  explicit Cancelling(service::Job& job) : job_(job) {}
-  ~Cancelling() { job_.cancel(); }
+  Cancelling(service::Executor& executor, const std::shared_ptr<service::Job>& job)
+      : executor_(executor), job_(job) {}
+  ~Cancelling() { executor_.cancel(job_); }
   Cancelling(const Cancelling&) = delete;
   Cancelling& operator=(const Cancelling&) = delete;
 
  private:
-  service::Job& job_;
+  service::Executor& executor_;
+  const std::shared_ptr<service::Job>& job_;
 };
 
 }  // namespace
@@ -30,7 +32,7 @@ class Cancelling {
 service::Answer follow_job(Call& call, service::Executor& executor, service::Order order,
                            const std::function<void(const v1::Progress&)>& send) {
   const std::shared_ptr<service::Job> job = executor.submit(std::move(order));
-  const Cancelling cancelling(*job);
+  const Cancelling cancelling(executor, job);
   std::optional<std::uint64_t> sent;  // the version
   Clock::time_point next_report = Clock::now() + kBetweenReports;
   for (service::Job::State state = job->wait(0, Clock::now() + kBetweenLooks); !state.done;) {

@@ -49,7 +49,9 @@ class AssetReceiver {
     const bool is_there = read(request);
     call_.check_cancelled();
     if (!is_there || request.part_case() != Request::kParameters)
-      throw Refusal(Reason::kInvalid, "the first message must hold the parameters");
+      throw Refusal(
+          Reason::kInvalid,
+          "the first message must hold the parameters; this one holds others, or none that can be parsed");
     take(request.parameters());
     if (!request.parameters().path().empty()) return at_path(request.parameters().path());
     const auto upload = std::make_shared<service::Upload>(backend_.uploads, backend_.limits.upload_bytes);
@@ -68,7 +70,9 @@ class AssetReceiver {
  private:
   bool read(Request& request) {
     const PeerWatch::Wait wait(watch_, call_.context());
-    return stream_.Read(&request);
+    if (!stream_.Read(&request)) return false;
+    check_size(request.ByteSizeLong());
+    return true;
   }
 
   // A place is not held by a trickle.
@@ -79,8 +83,10 @@ class AssetReceiver {
     if (taken > watch_.patience() + sending)
       throw service::Refusal(
           service::Reason::kCancelled,
-          fmt::format("the upload is slower than {} bytes per second for longer than {} s (--silence)",
-                      kLeastSpeed, watch_.patience().count()));
+          fmt::format(
+              "the upload is slower than {} bytes per second for longer than {} s; send it over a faster "
+              "line, or have the service's --silence raised",
+              kLeastSpeed, watch_.patience().count()));
   }
 
   void add(const Request& request, service::Upload& upload) {

@@ -32,7 +32,10 @@ template <typename Request, typename Response>
 Request read(Call& call, grpc::ServerUnaryStreamer<Request, Response>& stream, PeerWatch& watch) {
   Request request;
   const PeerWatch::Wait wait(watch, call.context());
-  if (stream.Read(&request)) return request;
+  if (stream.Read(&request)) {
+    check_size(request.ByteSizeLong());
+    return request;
+  }
   call.check_cancelled();
   throw Refusal(Reason::kInvalid, kCannotBeParsed);
 }

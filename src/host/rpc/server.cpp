@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "grpc/health/v1/health.pb.h"
+#include "rpc/call.h"
 #include "rpc/credentials.h"
 #include "rpc/scene_analyzer_service.h"
 
@@ -19,8 +20,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Data of files come in messages of at most 4 MiB; analyses for Rate may be larger.
-constexpr int kLargestMessage = 32 << 20;
+// Beyond which gRPC itself refuses a message, in its own words. Up to here check_size() says what to do, and
+// that it is of no use to try again.
+constexpr int kLargestMessage = 2 * kMostMessageBytes;
 constexpr int kCallsPerConnection = 128;
 constexpr std::chrono::milliseconds kKeepaliveTime = 30s, kKeepaliveTimeout = 10s, kLeastPingInterval = 10s,
                                     kHandshakeTimeout = 10s;

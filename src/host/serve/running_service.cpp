@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/error.h"
 #include "rpc/grpc_log.h"
@@ -57,14 +58,7 @@ RunningService::RunningService(const ServeRequest& request, cli::LazyDevice& dev
     } catch (const InputError& error) {
       throw UsageError(fmt::format("--token-file: {}", error.what()));
     }
-  executor_.emplace(
-      service::ExecutorOptions{.import_workers = request.jobs},
-      [this, &device]() -> gpu::Device& {
-        if (device_asked_) device.forget();  // it was lost
-        device_asked_ = true;
-        return device.get();
-      },
-      metrics_, [](const std::string& message) { cli::log_error(message); });
+  start_executor(request.jobs, device);
   backend_.emplace(rpc::Backend{.executor = *executor_,
                                 .admission = admission_,
                                 .uploads = uploads_,
@@ -79,6 +73,7 @@ RunningService::RunningService(const ServeRequest& request, cli::LazyDevice& dev
   executor_->device();  // nobody is told that the service is there before it can work
   rpc::forward_grpc_log([](const std::string& message) { cli::log_detail("gRPC: " + message); });
   if (request.metrics_address) {
+    scrapes_.emplace(metrics_);
     const int port = metrics_.listen(*request.metrics_address);
     const std::string& address = *request.metrics_address;
     cli::log_note(
@@ -87,9 +82,18 @@ RunningService::RunningService(const ServeRequest& request, cli::LazyDevice& dev
   server_.emplace(request.server, *backend_);
 }
 
-RunningService::~RunningService() {
-  server_.reset();  // all calls have ended then
-  metrics_.stop_listening();
+void RunningService::start_executor(unsigned jobs, cli::LazyDevice& device) try {
+  executor_.emplace(
+      service::ExecutorOptions{.import_workers = jobs},
+      [this, &device]() -> gpu::Device& {
+        if (device_asked_) device.forget();  // it was lost
+        device_asked_ = true;
+        return device.get();
+      },
+      metrics_, [](const std::string& message) { cli::log_error(message); });
+} catch (const std::system_error& error) {
+  throw UsageError(fmt::format("--jobs {}: the system does not start as many threads ({}); ask for fewer",
+                               jobs, error.code().message()));
 }
 
 std::string RunningService::device_name() {

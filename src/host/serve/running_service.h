@@ -16,7 +16,7 @@ class RunningService {
  public:
   // Serves when it returns. Throws UsageError and gpu::NoDevice for what cannot be had.
   RunningService(const ServeRequest& request, cli::LazyDevice& device);
-  ~RunningService();  // whatever is not answered is cancelled
+  ~RunningService() = default;  // whatever is not answered is cancelled
   RunningService(const RunningService&) = delete;
   RunningService& operator=(const RunningService&) = delete;
 
@@ -32,7 +32,17 @@ class RunningService {
   void hang_up();
 
  private:
+  void start_executor(unsigned jobs, cli::LazyDevice& device);
   service::Levels levels() const;
+
+  // A scrape asks the executor: none comes once it is gone, also where the service does not get to serve.
+  struct Scrapes {
+    explicit Scrapes(service::Metrics& asked) : metrics(asked) {}
+    ~Scrapes() { metrics.stop_listening(); }
+    Scrapes(const Scrapes&) = delete;
+    Scrapes& operator=(const Scrapes&) = delete;
+    service::Metrics& metrics;
+  };
 
   bool device_asked_ = false;
   std::shared_ptr<service::ContentStore> store_;
@@ -43,7 +53,8 @@ class RunningService {
   service::Metrics metrics_;
   std::optional<service::Executor> executor_;
   std::optional<rpc::Backend> backend_;
-  std::optional<rpc::Server> server_;
+  std::optional<Scrapes> scrapes_;
+  std::optional<rpc::Server> server_;  // last: calls use the others
 };
 
 }  // namespace scene_analyzer::serve

@@ -71,18 +71,34 @@ void DeviceWorker::start(std::vector<Imported> imported) {
   auto pack = std::make_unique<Pack>();
   std::vector<std::unique_ptr<pipeline::PendingAnalysis>> analyses;
   for (Imported& one : imported) {
+    if (was_refused(one)) continue;
     one.job->share_fate([pack = pack.get()] { return pack->is_given_up(); });
     pack->bytes += one.bytes;
     pack->jobs.push_back(std::move(one.job));
     pack->pictures.push_back(std::move(one.picture));
     analyses.push_back(std::move(one.analysis));
   }
+  if (pack->jobs.empty()) return;
   metrics_.count_pack(pack->jobs.size());
   if (!attempt(*pack, [&] { pack->pending = pipeline_.start_pack(std::move(analyses)); })) return;
   if (pack->pending->is_searching())
     pending_.push_back(std::move(pack));
   else
     finish(*pack);
+}
+
+// The device may have been lost with its asset after it was imported.
+bool DeviceWorker::was_refused(const Imported& one) {
+  try {
+    losses_.check(one.job->order().asset);
+    return false;
+  } catch (const Refusal& refusal) {
+    one.job->refuse(refusal.reason(), refusal.what());
+  } catch (const InputError&) {  // it is gone, but was read before
+    return false;
+  }
+  events_.released(one.bytes);
+  return true;
 }
 
 void DeviceWorker::finish_searched() {
@@ -155,8 +171,8 @@ void DeviceWorker::lose(Pack& pack, const std::string& what) {
     try_again_or_refuse(lost, is_at_fault, what);
     events_.released(lost.bytes);
   };
-  const bool was_alone = pack.jobs.size() == 1;
-  if (was_alone && pending_.empty()) losses_.add(pack.jobs.front()->order().asset);
+  const bool was_alone = pack.jobs.size() == 1 && pending_.empty();
+  if (was_alone) losses_.add(pack.jobs.front()->order().asset);
   give_up(pack, was_alone);
   for (const auto& other : std::exchange(pending_, {})) give_up(*other, false);
   pipeline_.forget_device();

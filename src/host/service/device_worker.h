@@ -69,6 +69,7 @@ class DeviceWorker {
   };
   // Runs a step of a pack; false when it has ended with it.
   bool attempt(Pack& pack, const std::function<void()>& step);
+  bool was_refused(const Imported& one);
   void finish(Pack& pack);
   void answer(Pack& pack, std::size_t index, pipeline::Outcome outcome);
   void draw(Job& job, mesh::Scene scene, Answer& answer);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "base/error.h"
@@ -21,9 +22,15 @@ Executor::Executor(const ExecutorOptions& options, std::function<gpu::Device&()>
               {.try_again = [this](std::shared_ptr<Job> job) { queue_.add(std::move(job), true); },
                .released = [this](std::uint64_t bytes) { queue_.release(bytes); },
                .error = log_error_}) {
-  for (unsigned i = 0; i < std::max(1U, options.import_workers); ++i)
-    threads_.emplace_back([this] { run_imports(); });
-  threads_.emplace_back([this] { run_device(); });
+  try {
+    for (unsigned i = 0; i < std::max(1U, options.import_workers); ++i)
+      threads_.emplace_back([this] { run_imports(); });
+    threads_.emplace_back([this] { run_device(); });
+  } catch (...) {  // those that were started wait for work
+    queue_.end();
+    threads_.clear();
+    throw;
+  }
 }
 
 Executor::~Executor() {
@@ -55,6 +62,11 @@ std::optional<Imported> Executor::prepare(const std::shared_ptr<Job>& job) {
     job->refuse(Reason::kCancelled, error.what());
   } catch (const Refusal& refusal) {
     job->refuse(refusal.reason(), refusal.what());
+  } catch (const import::EndedEarly& error) {
+    // While the picture's scene was read; pipeline::Pipeline takes what happens to the analysis.
+    try_alone_or_refuse(job, error.what());
+  } catch (const std::bad_alloc&) {
+    try_alone_or_refuse(job, "the service's machine has too little free memory for this asset");
   } catch (const InputError& error) {
     job->refuse(Reason::kInvalid, error.what());
   } catch (const gpu::Error& error) {
@@ -65,6 +77,13 @@ std::optional<Imported> Executor::prepare(const std::shared_ptr<Job>& job) {
     job->refuse(Reason::kInternal, kDefect);
   }
   return std::nullopt;
+}
+
+void Executor::try_alone_or_refuse(const std::shared_ptr<Job>& job, const std::string& what) {
+  if (job->try_alone())
+    queue_.add(job, true);
+  else
+    job->refuse(Reason::kTooLarge, what);
 }
 
 std::optional<Imported> Executor::import(const std::shared_ptr<Job>& job) {

@@ -33,7 +33,8 @@ struct ExecutorOptions {
 class Executor {
  public:
   // `device` gives a device, a new one when it is called again: the former was lost. `log_error` is told what
-  // is the machine's or the program's fault. Both may be called by any thread.
+  // is the machine's or the program's fault. Both may be called by any thread. Throws std::system_error where
+  // the system starts no more threads.
   Executor(const ExecutorOptions& options, std::function<gpu::Device&()> device, Metrics& metrics,
            std::function<void(const std::string&)> log_error);
   // What is not done is refused.
@@ -42,6 +43,8 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
   std::shared_ptr<Job> submit(Order order);
+  // Nobody waits for it any more. Also for a job that is done.
+  void cancel(const std::shared_ptr<Job>& job) { queue_.cancel(job); }
   WorkQueue::Depth depth() const { return queue_.depth(); }
   analysis::DeviceStamp device();  // throws gpu::NoDevice
 
@@ -52,6 +55,7 @@ class Executor {
   std::optional<Imported> import(const std::shared_ptr<Job>& job);
   void answer_without_device(const std::shared_ptr<Job>& job,
                              std::unique_ptr<pipeline::PendingAnalysis> analysis);
+  void try_alone_or_refuse(const std::shared_ptr<Job>& job, const std::string& what);
   bool wants_quiet(const Job& job);
   void log(const std::string& message) const { log_error_(message); }
 

@@ -55,7 +55,7 @@ class Job {
 
   // --- For who has ordered it ---
 
-  // Nobody waits for it any more: it ends at the next step, as refused.
+  // It ends at the next step, as refused; Executor::cancel() also takes it out of the queue.
   void cancel();
   struct State {
     double fraction = 0;  // [0, 1], never falling

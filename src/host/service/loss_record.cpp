@@ -39,7 +39,7 @@ void LossRecord::add(const mesh::AssetSource& asset) try {
 void LossRecord::check(const mesh::AssetSource& asset) const {
   {
     const std::lock_guard lock(mutex_);
-    if (losses_.empty()) return;
+    if (std::ranges::none_of(losses_, [](const Loss& loss) { return loss.times >= kTriedOften; })) return;
   }
   const auto contents = contents_of(asset);
   const std::lock_guard lock(mutex_);

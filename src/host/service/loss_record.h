@@ -17,8 +17,8 @@ class LossRecord {
  public:
   // The device was lost while nothing but `asset` was on it.
   void add(const mesh::AssetSource& asset);
-  // Throws Refusal for an asset of which that is known twice. Cost: one pass over its file, once there are
-  // losses at all.
+  // Throws Refusal for an asset of which that is known twice. Cost: one pass over its file, once there is
+  // any of which that is known.
   void check(const mesh::AssetSource& asset) const;
 
  private:
