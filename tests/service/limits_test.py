@@ -128,10 +128,13 @@ class Waiting(Case):
         garbage = b"\xff" * 100
         parameters = pb.AnalyzeRequest(parameters=pb.AnalyzeParameters()).SerializeToString()
         header = pb.AnalyzeRequest(file=pb.FileHeader(name="a.obj")).SerializeToString()
-        for method, messages in (("Analyze", [parameters, header, garbage, header]), ("Analyze", [garbage]),
+        sized = pb.AnalyzeRequest(file=pb.FileHeader(name="a.obj", size=100)).SerializeToString()
+        for method, messages in (("Analyze", [parameters, header, garbage, header]), ("Analyze", [garbage]), ("Analyze", []),
                                  ("Analyze", [parameters, garbage, header]), ("Rate", [garbage]), ("GetAnalysis", [garbage]), ("ListDevices", [garbage])):
             error = self.assert_fails(Code.INVALID_ARGUMENT, lambda: list(self.raw(method)(iter(messages))))
             self.assertRegex(error.details(), "cannot be parsed|first message", method)
+        error = self.assert_fails(Code.INVALID_ARGUMENT, lambda: list(self.raw("Analyze")(iter([parameters, sized, garbage]))))
+        self.assertIn("a.obj", error.details())
 
     def test_an_upload_that_trickles(self):
         ended = threading.Event()

@@ -48,10 +48,11 @@ class AssetReceiver {
     Request request;
     const bool is_there = read(request);
     call_.check_cancelled();
-    if (!is_there || request.part_case() != Request::kParameters)
-      throw Refusal(
-          Reason::kInvalid,
-          "the first message must hold the parameters; this one holds others, or none that can be parsed");
+    if (!is_there)
+      throw Refusal(Reason::kInvalid,
+                    "the first message must hold the parameters; none came, or none that can be parsed");
+    if (request.part_case() != Request::kParameters)
+      throw Refusal(Reason::kInvalid, "the first message must hold the parameters; this one holds others");
     take(request.parameters());
     if (!request.parameters().path().empty()) return at_path(request.parameters().path());
     const auto upload = std::make_shared<service::Upload>(backend_.uploads, backend_.limits.upload_bytes);
@@ -60,7 +61,8 @@ class AssetReceiver {
       check_speed();
     }
     call_.check_cancelled();  // the end of a broken connection is no end of files
-    // gRPC also says so of a message that it cannot parse.
+    // gRPC also says so of a message that it cannot parse. Where that was the last, nothing tells it from the
+    // end, but the size that was announced.
     if (read(request)) throw Refusal(Reason::kInvalid, kCannotBeParsed);
     mesh::AssetSource asset = upload->finish();
     call_.record().asset = asset.name;

@@ -21,8 +21,8 @@ namespace {
 using namespace std::chrono_literals;
 
 // Beyond which gRPC itself refuses a message, in its own words. Up to here check_size() says what to do, and
-// that it is of no use to try again.
-constexpr int kLargestMessage = 2 * kMostMessageBytes;
+// that it is of no use to try again. Not much more, for it is held in memory before anything is known of it.
+constexpr int kLargestMessage = kMostMessageBytes + (4 << 20);
 constexpr int kCallsPerConnection = 128;
 constexpr std::chrono::milliseconds kKeepaliveTime = 30s, kKeepaliveTimeout = 10s, kLeastPingInterval = 10s,
                                     kHandshakeTimeout = 10s;

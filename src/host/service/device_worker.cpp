@@ -89,12 +89,13 @@ void DeviceWorker::start(std::vector<Imported> imported) {
 
 // The device may have been lost with its asset after it was imported.
 bool DeviceWorker::was_refused(const Imported& one) {
+  if (losses_.refused() == one.refused_before) return false;
   try {
     losses_.check(one.job->order().asset);
     return false;
   } catch (const Refusal& refusal) {
     one.job->refuse(refusal.reason(), refusal.what());
-  } catch (const InputError&) {  // it is gone, but was read before
+  } catch (const std::exception&) {  // its file is gone, or there is no memory for it; it was read before
     return false;
   }
   events_.released(one.bytes);
@@ -172,10 +173,18 @@ void DeviceWorker::lose(Pack& pack, const std::string& what) {
     events_.released(lost.bytes);
   };
   const bool was_alone = pack.jobs.size() == 1 && pending_.empty();
-  if (was_alone) losses_.add(pack.jobs.front()->order().asset);
+  if (was_alone) record_loss(pack.jobs.front()->order().asset);
   give_up(pack, was_alone);
   for (const auto& other : std::exchange(pending_, {})) give_up(*other, false);
   pipeline_.forget_device();
+}
+
+void DeviceWorker::record_loss(const mesh::AssetSource& asset) {
+  try {
+    losses_.add(asset);
+  } catch (const std::exception& error) {
+    events_.error(std::string("which asset the device was lost with is not recorded: ") + error.what());
+  }
 }
 
 void DeviceWorker::try_again_or_refuse(const Pack& pack, bool is_at_fault, const std::string& what) {

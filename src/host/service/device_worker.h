@@ -29,9 +29,10 @@ class GivenUp : public std::exception {
 struct Imported {
   std::shared_ptr<Job> job;
   std::unique_ptr<pipeline::PendingAnalysis> analysis;
-  mesh::Scene picture;       // with textures; where a picture was ordered
-  std::uint64_t bytes = 0;   // of memory
-  bool wants_quiet = false;  // is measured with nothing imported beside it
+  mesh::Scene picture;               // with textures; where a picture was ordered
+  std::uint64_t bytes = 0;           // of memory
+  bool wants_quiet = false;          // is measured with nothing imported beside it
+  std::uint64_t refused_before = 0;  // LossRecord::refused() when it was looked up there
 };
 
 // What a client is told.
@@ -70,6 +71,7 @@ class DeviceWorker {
   // Runs a step of a pack; false when it has ended with it.
   bool attempt(Pack& pack, const std::function<void()>& step);
   bool was_refused(const Imported& one);
+  void record_loss(const mesh::AssetSource& asset);
   void finish(Pack& pack);
   void answer(Pack& pack, std::size_t index, pipeline::Outcome outcome);
   void draw(Job& job, mesh::Scene scene, Answer& answer);

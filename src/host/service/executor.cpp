@@ -91,8 +91,9 @@ std::optional<Imported> Executor::import(const std::shared_ptr<Job>& job) {
     job->report(fraction, step);
     if (job->is_given_up() || queue_.has_ended()) throw GivenUp();
   };
-  worker_.losses().check(job->order().asset);
   Imported imported{.job = job, .analysis = nullptr, .picture = {}};
+  imported.refused_before = worker_.losses().refused();
+  worker_.losses().check(job->order().asset);
   imported.analysis = pipeline_.prepare(job->order().asset, progress, job->options());
   if (imported.analysis->has_failed() ||
       !(job->order().picture || imported.analysis->has_something_to_measure())) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "analysis_file/analysis_file.h"
-#include "base/error.h"
 #include "service/refusal.h"
 
 namespace scene_analyzer::service {
@@ -22,18 +21,22 @@ std::pair<std::uint64_t, std::uint64_t> contents_of(const mesh::AssetSource& ass
 
 }  // namespace
 
-void LossRecord::add(const mesh::AssetSource& asset) try {
+void LossRecord::add(const mesh::AssetSource& asset) {
   const auto contents = contents_of(asset);
   const std::lock_guard lock(mutex_);
   const auto known =
       std::ranges::find_if(losses_, [&](const Loss& loss) { return loss.contents == contents; });
   if (known != losses_.end()) {
-    ++known->times;
+    if (++known->times == kTriedOften) ++refused_;
     return;
   }
   if (losses_.size() == kMostAssets) losses_.pop_front();
   losses_.push_back({contents, 1});
-} catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a file that is gone is not tried again
+}
+
+std::uint64_t LossRecord::refused() const {
+  const std::lock_guard lock(mutex_);
+  return refused_;
 }
 
 void LossRecord::check(const mesh::AssetSource& asset) const {

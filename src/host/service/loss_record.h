@@ -15,11 +15,14 @@ namespace scene_analyzer::service {
 
 class LossRecord {
  public:
-  // The device was lost while nothing but `asset` was on it.
+  // The device was lost while nothing but `asset` was on it. Throws InputError for a file that is gone.
   void add(const mesh::AssetSource& asset);
   // Throws Refusal for an asset of which that is known twice. Cost: one pass over its file, once there is
   // any of which that is known.
   void check(const mesh::AssetSource& asset) const;
+  // How many assets check() has ever come to refuse: where that is what it was, there is no need to check
+  // again.
+  std::uint64_t refused() const;
 
  private:
   struct Loss {
@@ -29,6 +32,7 @@ class LossRecord {
 
   mutable std::mutex mutex_;
   std::deque<Loss> losses_;  // the oldest first
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace scene_analyzer::service

@@ -62,6 +62,7 @@ void WorkQueue::cancel(const std::shared_ptr<Job>& job) {
       dropped = std::move(*ready);
       ready_.erase(ready);
       held_bytes_ -= dropped->bytes;
+      next_ready();  // quiet may be wanted no longer, and the device's thread need not look before long
     } else if (std::erase(waiting_, job) == 0) {
       return;
     }
