@@ -90,6 +90,7 @@ class Sizes(Case):
             more = pb.MeasuringParameters(start_searches=101)
             error = self.assert_fails(Code.INVALID_ARGUMENT, lambda: analyze(service.stub(), {"a.obj": obj()}, more))
             self.assertIn("start_searches: 101", error.details())
+            self.assertIn("--max-start-searches", error.details())
             # Who says nothing gets what there is, not more than that.
             self.assertEqual(analyze(service.stub(), {"a.obj": obj(2, 2)}).analysis.parameters.start_searches, 100)
 

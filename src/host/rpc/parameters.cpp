@@ -28,9 +28,13 @@ constexpr std::uint32_t kLeastWidth = 240, kLeastHeight = 120;  // below it no l
 constexpr std::array<std::string_view, 4> kMapNames = {"thesis", "viridis", "cividis", "coolwarm"};
 
 template <typename T>
-T in_range(const char* field, T value, T least, T greatest) {
+T in_range(const char* field, T value, T least, T greatest, const char* raised_by = nullptr) {
   if (value >= least && value <= greatest) return value;  // NaN is not
-  throw Refusal(Reason::kInvalid, fmt::format("{}: {} is not in [{}, {}]", field, value, least, greatest));
+  throw Refusal(
+      Reason::kInvalid,
+      fmt::format(
+          "{}: {} is not in [{}, {}]{}", field, value, least, greatest,
+          raised_by && value > greatest ? fmt::format("; the service's {} allows no more", raised_by) : ""));
 }
 
 [[noreturn]] void refuse_name(const char* field, const std::string& text,
@@ -118,9 +122,9 @@ pipeline::Options read_measuring(const v1::MeasuringParameters& message, MetricS
     parameters.weld_tolerance = in_range("measuring.weld_tolerance", message.weld_tolerance(), 0.0,
                                          std::numeric_limits<double>::max());
   if (message.has_start_searches())
-    parameters.start_searches = in_range<std::uint64_t>("measuring.start_searches", message.start_searches(),
-                                                        1, backend.limits.start_searches);
-
+    parameters.start_searches =
+        in_range<std::uint64_t>("measuring.start_searches", message.start_searches(), 1,
+                                backend.limits.start_searches, "--max-start-searches");
   if (message.has_steps())
     parameters.steps =
         in_range<std::uint32_t>("measuring.steps", message.steps(), 1, render_timing::kMostSteps);
@@ -130,7 +134,7 @@ pipeline::Options read_measuring(const v1::MeasuringParameters& message, MetricS
     options.timing_height = in_range("measuring.timing_height", message.timing_height(), 1U, kMostPixels);
   if (message.has_timing_budget_seconds())
     options.timing_budget = in_range("measuring.timing_budget_seconds", message.timing_budget_seconds(),
-                                     0.001, backend.limits.timing_budget);
+                                     0.001, backend.limits.timing_budget, "--timing-budget");
   return options;
 }
 
